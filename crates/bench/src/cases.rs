@@ -51,26 +51,30 @@ impl<T: Send> Cases<T> {
     }
 }
 
-/// `[CASES] [SEED] [--case K]` of the command line: the numbers of the cases (so many, or the case K alone) and the seed.
+/// `[CASES] [SEED] [--case K]` of the command line, and a flag where a benchmark has one: the numbers of the cases (so many, or the case K alone), the seed, and
+/// whether the flag is there.
 ///
 /// # Errors
 /// [`Failure`] for other words.
-pub fn arguments(default: [u64; 2]) -> Result<(Vec<u64>, u64), Failure> {
+pub fn arguments(default: [u64; 2], flag: Option<&str>) -> Result<(Vec<u64>, u64, bool), Failure> {
     let mut positions = default;
-    let (mut place, mut case) = (0, None);
+    let (mut place, mut case, mut is_there) = (0, None, false);
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         if word == "--case" {
             case = Some(number(&words.next().ok_or("--case: expected a value")?)?);
+        } else if flag == Some(word.as_str()) {
+            is_there = true;
         } else if place < positions.len() {
             positions[place] = number(&word)?;
             place += 1;
         } else {
-            return Err(format!("expected CASES, SEED or --case, found {word:?}").into());
+            let flag = flag.map_or(String::new(), |flag| format!(", {flag}"));
+            return Err(format!("expected CASES, SEED{flag} or --case, found {word:?}").into());
         }
     }
     let [cases, seed] = positions;
-    Ok((case.map_or_else(|| (0..cases).collect(), |index| vec![index]), seed))
+    Ok((case.map_or_else(|| (0..cases).collect(), |index| vec![index]), seed, is_there))
 }
 
 /// A number on the command line.

@@ -5,7 +5,7 @@ use crate::tier::of_tier;
 
 use common::{Case, plate, sandwich};
 use frfit::c64;
-use frfit::diagnostics::{Diagnosis, diagnose, diagnose_on};
+use frfit::diagnostics::{Depth, Diagnosis, diagnose, diagnose_on};
 use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
@@ -37,12 +37,13 @@ fn apart_and_shared(
     );
     let mut reduced = ReducedBand::default();
     let shared = (
-        diagnose_on(&mut reduced, &problem, &quantities, &options, &sequential).unwrap(),
+        diagnose_on(&mut reduced, Depth::Quick, &problem, &quantities, &options, &sequential).unwrap(),
         identify_on(&mut reduced, &problem, &options, CONTEXT).unwrap(),
     );
     // The work of the model is that of diagnosis and identification together, of which the latter knows all.
     assert_eq!(reduced.work(), shared.1.search.work);
-    let again = diagnose_on(&mut reduced, &problem, &quantities, &options, &sequential).unwrap();
+    let again =
+        diagnose_on(&mut reduced, Depth::Quick, &problem, &quantities, &options, &sequential).unwrap();
     assert_eq!(again.work.factorisations, 0, "{again:?}");
     assert_eq!(kinds(&again), kinds(&shared.0));
     [apart, shared]

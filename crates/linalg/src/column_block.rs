@@ -75,11 +75,23 @@ impl ColumnBlock {
 
     /// V y.
     pub fn combine(&self, y: &[c64]) -> Vec<c64> {
-        assert_eq!(y.len(), self.ncols());
-        let parts: Vec<f64> = y.iter().map(|y| y.re).chain(y.iter().map(|y| y.im)).collect();
-        let product = self.times(&parts);
-        let (re, im) = product.split_at(self.nrows);
-        re.iter().zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
+        self.combined(&[y]).concat()
+    }
+
+    /// V y of several y: one product.
+    pub fn combine_all(&self, each: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        self.combined(&each.iter().map(Vec::as_slice).collect::<Vec<_>>())
+    }
+
+    fn combined(&self, each: &[&[c64]]) -> Vec<Vec<c64>> {
+        assert!(each.iter().all(|y| y.len() == self.ncols()));
+        let parts = |y: &&[c64]| y.iter().map(|y| y.re).chain(y.iter().map(|y| y.im)).collect::<Vec<f64>>();
+        let product = self.times(&each.iter().flat_map(parts).collect::<Vec<f64>>());
+        let complex = |of: &[f64]| {
+            let (re, im) = of.split_at(self.nrows);
+            re.iter().zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
+        };
+        product.chunks_exact((2 * self.nrows).max(1)).map(complex).collect()
     }
 
     fn as_faer(&self) -> MatRef<'_, f64> {

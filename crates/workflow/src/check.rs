@@ -8,8 +8,8 @@ use crate::output::Words;
 use crate::run::{Used, in_parallel, problem_of, reduced_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
-    Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, MIN_MARGIN_NATS, NotJudged, OtherExplanation,
-    OtherRow, diagnose_on,
+    Depth, Diagnosis, Evidence, Fault, KNOWN_FACTOR_RTOL, KnownFactor, MIN_MARGIN_NATS, NotJudged,
+    OtherExplanation, OtherRow, diagnose_on,
 };
 use frfit::identify::{ChannelUnknowns, Problem, ProblemError, ReducedBand};
 use frfit::quantity::Quantity;
@@ -91,17 +91,18 @@ pub fn check_loaded(case: Case, memory_bytes: Option<u64>) -> Result<CheckJob, J
 pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemError> {
     let used = Used::of(identify);
     let problem = problem_of(case, identify, &used)?;
-    check_on(&mut reduced_of(case, identify, &problem)?, &problem, case, identify)
+    check_on(&mut reduced_of(case, identify, &problem)?, Depth::Full, &problem, case, identify)
 }
 
-/// The same on the reduced model with which the case is identified.
+/// The same on the reduced model with which the case is identified, as far as is asked.
 pub(crate) fn check_on<'a>(
     reduced: &mut ReducedBand<'a>,
+    depth: Depth,
     problem: &'a Problem<'a>,
     case: &Case,
     identify: &IdentifyCase,
 ) -> Result<Diagnosis, ProblemError> {
-    let diagnosis = diagnose_on(reduced, problem, &quantities(case), &identify.options, &in_parallel)?;
+    let diagnosis = diagnose_on(reduced, depth, problem, &quantities(case), &identify.options, &in_parallel)?;
     Ok(without_looked_for(identify, diagnosis))
 }
 

@@ -19,7 +19,7 @@ use crate::run::{
     IN_PARALLEL, IdentifyRun, Progress, RespondRun, RunOptions, Used, identify_with, problem_of, reduced_of,
     respond,
 };
-use frfit::diagnostics::Diagnosis;
+use frfit::diagnostics::{Depth, Diagnosis};
 use frfit::identify::{Explained, ProblemError};
 use frfit::material::OutsideTable;
 use frfit::response::Work;
@@ -266,7 +266,7 @@ pub fn compute(
     let mut seconds_check = 0.0;
     let mut check = |reduced: &mut _| {
         let start = Instant::now();
-        let diagnosis = check_on(reduced, &problem, &case, wanted);
+        let diagnosis = check_on(reduced, Depth::Quick, &problem, &case, wanted);
         seconds_check += start.elapsed().as_secs_f64();
         diagnosis
     };

@@ -1,6 +1,6 @@
 //! Faults of data, drawn.
 
-use super::Data;
+use super::{Data, Which};
 use crate::wrong_models::Failure;
 use crate::wrong_models::case::{Case, solve};
 use crate::wrong_models::dice::Dice;
@@ -65,6 +65,9 @@ impl fmt::Display for Fault {
 /// Kinds of faults.
 const KINDS: usize = 9;
 
+/// Those of them that are rows.
+const ROWS: [usize; 2] = [5, 6];
+
 /// Root mean square of ln(faulty/right) at least: what changes data less than that no one can see beside a wrong model.
 const VISIBLE: f64 = 0.3;
 
@@ -78,7 +81,7 @@ const DELAY_PHASE: [f64; 2] = [0.6, 6.0];
 pub(super) fn planted(
     case: &Case,
     data: &mut Data,
-    before: &[Planted],
+    (before, which): (&[Planted], Which),
     dice: &mut Dice,
 ) -> Result<Option<Planted>, Failure> {
     let count = data.quantities.len();
@@ -89,7 +92,11 @@ pub(super) fn planted(
     let taken_for = data.quantities[sensors[0]];
     let others: Vec<Quantity> = Quantity::ALL.into_iter().filter(|q| *q != taken_for).collect();
     let rows = case.model.dim();
-    let (fault, sensors) = match dice.below(KINDS) {
+    let kind = match which {
+        Which::All => dice.below(KINDS),
+        Which::Rows => dice.pick(&ROWS),
+    };
+    let (fault, sensors) = match kind {
         0 => (Fault::Conjugated, sensors),
         1 => (Fault::Sign, sensors),
         2 => (Fault::Quantity(dice.pick(&others)), sensors),

@@ -1,150 +1,150 @@
-//! Sensors and loads that are on other rows than the case says: one solve answers for every row at once, and by reciprocity for every load.
+//! Sensors and loads that are on other rows than the case says, one at a time.
 
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit};
-use super::misfit::{misfit_at, wrapped};
 use super::moduli::{Moduli, Parametrization};
 use super::responses::{Responses, trained};
-use super::search::{Fitted, Search, Start, Written};
-use crate::c64;
+use super::rows::{Rows, What, best, driven_row, misfits, misfits_of_shape};
+use super::search::{Fitted, Search, Start};
 use crate::for_each::map;
 use crate::identify::{Options, Problem};
 use crate::material::OutsideTable;
 use crate::model::{Experiment, Sensor};
-use crate::subspace::Drive;
-
-/// Frequencies at which all rows are looked at.
-const ROW_FREQUENCIES: usize = 12;
-
-/// Moduli at which they are, at most; fewer on large models, so that all rows cost no more than this many products.
-const MAX_ROW_MODULI: usize = 60;
-const MAX_ROW_PRODUCTS: f64 = 4e8;
+use crate::response::Work;
+use crate::subspace::{Drive, Subspace};
 
 /// Rows that are looked at more closely for a sensor or the load, of each kind of comparison.
 const MAX_CLOSE_ROWS: usize = 4;
 
-/// Rows with a change of values beside them that are fitted.
-const MAX_PAIRS: usize = 20;
-
-/// Scale at which rows are compared: away from the sensors the basis is good to some hundredths.
-const ROW_SCALE: f64 = 0.3;
-
-/// How far the sizes of several unknowns are tried to either side, in ln a.
-const ROW_LN_RANGE: f64 = 0.5;
+/// Rows with a change of values or another row beside them that are fitted.
+pub(super) const MAX_PAIRS: usize = 20;
 
 /// How far to either side of the moduli of candidates a model is trained, in ln a, and of how many at most.
 const TRAINED_LN_RANGE: f64 = 0.05;
 const MAX_TRAINED_MODULI: usize = 3;
 
-/// A row that is not better than the case's own by this (nats, at the scale of [`ROW_SCALE`]) is not looked at.
-const MIN_ROUGH_GAIN: f64 = 2.0;
+/// What is on another row, and which sensors it concerns.
+pub(super) type Place = (DofMismatch, Vec<usize>);
 
-/// A dof mismatch that was tried, with what came of it.
+/// Rows that were tried, with what came of them.
 pub(super) struct Tried {
-    pub(super) what: DofMismatch,
-    pub(super) sensors: Vec<usize>,
-    /// A change of values beside it.
+    pub(super) places: Vec<Place>,
+    /// A change of values beside them.
     pub(super) second: Option<Edit>,
     pub(super) fitted: Fitted,
+}
+
+/// What a search for rows has to go by.
+#[derive(Clone, Copy)]
+pub(super) struct Case<'x> {
+    pub(super) problem: &'x Problem<'x>,
+    pub(super) experiment: &'x Experiment,
+    pub(super) options: &'x Options,
 }
 
 /// The best rows for every sensor and for the load, alone and beside each of some changes of values, each fitted on a model that was trained for it.
 pub(super) fn dof_mismatch(
     search: &Search<'_, '_>,
-    problem: &Problem<'_>,
-    experiment: &Experiment,
-    options: &Options,
+    case: Case<'_>,
     (data_hypothesis, changes): (&DataHypothesis, &[Edit]),
     moduli: &[(Option<usize>, Vec<Moduli>)],
-) -> Result<Vec<Tried>, OutsideTable> {
+) -> Result<(Vec<Tried>, Work), OutsideTable> {
+    let experiment = case.experiment;
     let sensors = experiment.sensors.len();
-    let driven: Vec<usize> =
-        (0..experiment.load.len()).filter(|&row| experiment.load[row] != c64::default()).collect();
+    let all: Vec<usize> = (0..sensors).collect();
+    let rows = Rows { search, experiment, data_hypothesis };
     // What is at which of the candidates' rows: (sensor, or none for the load, row, moduli).
     let mut wanted: Vec<(Option<usize>, usize, Moduli)> = Vec::new();
     for (place, moduli) in moduli {
-        let all: Vec<usize> = (0..sensors).collect();
-        let best = match (place, &driven[..]) {
-            (Some(m), _) => {
-                let own = experiment.sensors[*m].row;
-                best_rows(search, experiment, data_hypothesis, &[*m], false, moduli, own)
-            }
-            (None, [row]) => best_rows(search, experiment, data_hypothesis, &all, true, moduli, *row),
-            (None, _) => Vec::new(),
+        let best = match (place, driven_row(experiment)) {
+            (Some(m), _) => best_rows(&rows, &[*m], What::Sensor, moduli, experiment.sensors[*m].row),
+            (None, Some(row)) => best_rows(&rows, &all, What::Load, moduli, row),
+            (None, None) => Vec::new(),
         };
         wanted.extend(best.into_iter().map(|(row, moduli)| (*place, row, moduli)));
     }
-    if wanted.is_empty() {
-        return Ok(Vec::new());
-    }
-    let sign = |m: Option<usize>| m.map_or(1.0, |m| experiment.sensors[m].sign);
-    let places = wanted.iter().map(|(m, row, _)| Sensor { row: *row, sign: sign(*m) });
+    let places: Vec<Sensor> = wanted
+        .iter()
+        .map(|(m, row, _)| Sensor { row: *row, sign: m.map_or(1.0, |m| experiment.sensors[m].sign) })
+        .collect();
+    let near: Vec<&Moduli> = wanted.iter().map(|(.., moduli)| moduli).collect();
+    let fitted = with_places(search, case, &places, &near, &mut |mut responses| {
+        let mut edits = Vec::with_capacity(wanted.len());
+        for (k, (m, row, moduli)) in wanted.iter().enumerate() {
+            let there = sensors + k;
+            let (sensors, columns, what) = match *m {
+                Some(m) => (vec![m], vec![there], DofMismatch::Response(*row)),
+                None => {
+                    let drive = Drive::Sensor(there);
+                    let columns = all.iter().map(|&m| responses.add(m, drive, rows.force())).collect();
+                    (all.clone(), columns, DofMismatch::Load(*row))
+                }
+            };
+            let edit = Edit { change: Change::Column(columns), sensors: sensors.clone() };
+            edits.push((vec![(what, sensors)], edit, moduli));
+        }
+        let edits: Vec<(Vec<Place>, Edit, &Moduli)> = edits;
+        let close = Search { responses: &responses, ..*search };
+        let mut tried = map(search.for_each, edits.len(), |k| {
+            let (places, edit, moduli) = &edits[k];
+            let fitted = close.follow(&data_hypothesis.with(edit), starts(&responses, moduli));
+            Tried { places: places.clone(), second: None, fitted }
+        });
+        let seconds: Vec<(usize, &Edit)> =
+            (0..edits.len()).flat_map(|k| changes.iter().map(move |second| (k, second))).collect();
+        let both = |k: usize, second: &Edit| data_hypothesis.with(&edits[k].1).with(second);
+        let scored = map(search.for_each, seconds.len(), |s| {
+            let (k, second) = seconds[s];
+            close.likeliest_start(&both(k, second), starts(&responses, edits[k].2))
+        });
+        let mut order: Vec<usize> = (0..seconds.len()).collect();
+        order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
+        order.truncate(MAX_PAIRS);
+        tried.extend(map(search.for_each, order.len(), |s| {
+            let (k, second) = seconds[order[s]];
+            let fitted = close.follow(&both(k, second), vec![scored[order[s]].1.clone()]);
+            Tried { places: edits[k].0.clone(), second: Some(second.clone()), fitted }
+        }));
+        tried
+    })?;
+    Ok(fitted.unwrap_or_default())
+}
+
+/// Where rows are fitted from: their moduli, and a little to either side.
+pub(super) fn starts(responses: &Responses<'_>, moduli: &Moduli) -> Vec<Start> {
+    let moved = |by: f64| (responses.parametrization.moved(moduli, by), 0.0, 0.0);
+    [0.0, -0.03, 0.03].map(moved).to_vec()
+}
+
+/// Trains a model with some more places behind the sensors, near some moduli, and hands its responses over. `None` without places, or where no model can be trained.
+pub(super) fn with_places<T>(
+    search: &Search<'_, '_>,
+    Case { problem, experiment, options }: Case<'_>,
+    places: &[Sensor],
+    moduli: &[&Moduli],
+    found: &mut dyn FnMut(Responses<'_>) -> T,
+) -> Result<Option<(T, Work)>, OutsideTable> {
+    let (Some(&about), false) = (moduli.first(), places.is_empty()) else { return Ok(None) };
     let wider = Experiment {
         load: experiment.load.clone(),
-        sensors: experiment.sensors.iter().copied().chain(places).collect(),
+        sensors: experiment.sensors.iter().chain(places).copied().collect(),
     };
     let frequency_hz = &search.responses.frequency_hz;
     let Some(parametrization) = Parametrization::new(problem, frequency_hz, options)? else {
-        return Ok(Vec::new());
+        return Ok(None);
     };
-    let near = near_candidates(&parametrization, wanted.iter().map(|(.., moduli)| moduli));
+    let near = near_candidates(&parametrization, moduli);
     let subspace = trained(problem, &wider, frequency_hz, &parametrization, &near, search.for_each)?;
-    let about = parametrization.nominal();
-    let responses = subspace.as_ref().and_then(|subspace| {
-        let all = (0..wider.sensors.len()).collect();
-        let about = wanted.first().map_or(&about, |(.., moduli)| moduli);
-        Responses::new(problem, subspace, all, (parametrization, about), frequency_hz, search.for_each)
-    });
-    let Some(mut responses) = responses else { return Ok(Vec::new()) };
-    let force = driven.first().map_or(c64::default(), |&row| experiment.load[row]);
-    let mut edits = Vec::with_capacity(wanted.len());
-    for (k, (m, row, moduli)) in wanted.iter().enumerate() {
-        let there = sensors + k;
-        let (sensors, columns, what) = match *m {
-            Some(m) => (vec![m], vec![there], DofMismatch::Response(*row)),
-            None => {
-                let all: Vec<usize> = (0..sensors).collect();
-                let columns = all.iter().map(|&m| responses.add(m, Drive::Sensor(there), force)).collect();
-                (all, columns, DofMismatch::Load(*row))
-            }
-        };
-        edits.push((what, Edit { change: Change::Column(columns), sensors }, moduli));
-    }
-    let close = Search { responses: &responses, ..*search };
-    let starts = |moduli: &Moduli| -> Vec<Start> {
-        let moved = |by: f64| (responses.parametrization.moved(moduli, by), 0.0, 0.0);
-        [0.0, -0.03, 0.03].map(moved).to_vec()
-    };
-    let mut tried = map(search.for_each, edits.len(), |k| {
-        let (what, edit, moduli) = &edits[k];
-        let fitted = close.follow(&data_hypothesis.with(edit), starts(moduli));
-        Tried { what: *what, sensors: edit.sensors.clone(), second: None, fitted }
-    });
-    let seconds: Vec<(usize, &Edit)> =
-        (0..edits.len()).flat_map(|k| changes.iter().map(move |second| (k, second))).collect();
-    let both = |k: usize, second: &Edit| data_hypothesis.with(&edits[k].1).with(second);
-    let scored = map(search.for_each, seconds.len(), |s| {
-        let (k, second) = seconds[s];
-        close.likeliest_start(&both(k, second), starts(edits[k].2))
-    });
-    let mut order: Vec<usize> = (0..seconds.len()).collect();
-    order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
-    order.truncate(MAX_PAIRS);
-    tried.extend(map(search.for_each, order.len(), |s| {
-        let (k, second) = seconds[order[s]];
-        let (what, edit, _) = &edits[k];
-        let fitted = close.follow(&both(k, second), vec![scored[order[s]].1.clone()]);
-        Tried { what: *what, sensors: edit.sensors.clone(), second: Some(second.clone()), fitted }
-    }));
-    Ok(tried)
+    let Some(subspace) = subspace else { return Ok(None) };
+    let all = (0..wider.sensors.len()).collect();
+    let parametrization = (parametrization, about);
+    let responses = Responses::new(problem, &subspace, all, parametrization, frequency_hz, search.for_each);
+    Ok(responses.map(|responses| (found(responses), Subspace::work(&subspace))))
 }
 
 /// Where a model is trained that serves some moduli and what is near by: at most [`MAX_TRAINED_MODULI`] of them, and to either side.
-fn near_candidates<'m>(
-    parametrization: &Parametrization,
-    candidates: impl Iterator<Item = &'m Moduli>,
-) -> Vec<Moduli> {
+fn near_candidates(parametrization: &Parametrization, candidates: &[&Moduli]) -> Vec<Moduli> {
     let mut apart: Vec<&Moduli> = Vec::new();
-    for moduli in candidates {
+    for &moduli in candidates {
         let is_near = |other: &&Moduli| other.ln_size_distance(moduli) < 2.0 * TRAINED_LN_RANGE;
         if !apart.iter().any(is_near) {
             apart.push(moduli);
@@ -156,83 +156,52 @@ fn near_candidates<'m>(
     apart.iter().flat_map(sides).collect()
 }
 
-/// Moduli over the box at which rows are compared, as many as a model of this size allows; of several unknowns about some.
-pub(super) fn sweep(responses: &Responses<'_>, about: &Moduli) -> Vec<Moduli> {
-    let products = (responses.subspace.size() * responses.rows * ROW_FREQUENCIES) as f64;
-    let count = ((MAX_ROW_PRODUCTS / products) as usize).clamp(5, MAX_ROW_MODULI);
-    let parametrization = &responses.parametrization;
-    let [low, high] = parametrization.common();
-    let part = |k: usize| k as f64 / (count - 1) as f64;
-    let of = |k: usize| match responses.is_modal() {
-        true => parametrization.moved(about, ROW_LN_RANGE * (2.0 * part(k) - 1.0)),
-        false => parametrization.all_by(low + (high - low) * part(k), parametrization.usual_loss(), 0.0),
-    };
-    (0..count).map(of).collect()
-}
-
 /// The rows that explain some sensors best: as their own, or (`is_load`) as that of the load.
 ///
 /// Each comes with the moduli that suit it best. They are the best by magnitude and phase, and the best by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
 fn best_rows(
-    search: &Search<'_, '_>,
-    experiment: &Experiment,
-    data_hypothesis: &DataHypothesis,
+    of: &Rows<'_, '_>,
     sensors: &[usize],
-    is_load: bool,
+    what: What,
     moduli: &[Moduli],
     own: usize,
 ) -> Vec<(usize, Moduli)> {
-    let responses = search.responses;
-    let Written(written) = search.written;
-    let count = written.len().min(ROW_FREQUENCIES);
-    let picked: Vec<usize> = (0..count).map(|k| k * (written.len() - 1) / (count - 1).max(1)).collect();
-    let force = experiment.load[experiment.load.iter().position(|f| *f != c64::default()).unwrap_or(0)];
-    let rows = experiment.load.len();
-    let scores = map(search.for_each, moduli.len(), |l| {
-        let mut scores = vec![[0.0; 2]; rows];
+    let rows = of.experiment.load.len();
+    let scores = map(of.search.for_each, moduli.len(), |l| {
+        let mut scores = [vec![0.0; rows], vec![0.0; rows]];
         for &m in sensors {
-            // The deviation of ln|measured/model| from its mean.
-            let mut sums = vec![[0.0; 2]; rows];
-            let mut values = 0.0;
-            for &i in &picked {
-                let Some(value) = written[i][m] else { continue };
-                values += 1.0;
-                let read = data_hypothesis.reading(m, responses.frequency_hz[i], value).receptance(0.0, 0.0);
-                let (drive, by) = match is_load {
-                    true => (Drive::Sensor(responses.sensors[m]), force),
-                    false => (Drive::Load, c64::new(experiment.sensors[m].sign, 0.0)),
-                };
-                for (row, x) in responses.everywhere(drive, &moduli[l], i).into_iter().enumerate() {
-                    let rest = wrapped(read - (by * x).ln());
-                    scores[row][0] += misfit_at(std::iter::once(rest), ROW_SCALE);
-                    sums[row][0] += rest.re;
-                    sums[row][1] += rest.re * rest.re;
-                }
-            }
-            for (score, [sum, squares]) in scores.iter_mut().zip(sums) {
-                let about_mean: f64 = squares - sum * sum / values;
-                score[1] += values * (about_mean / values + ROW_SCALE * ROW_SCALE).ln();
+            let rests = of.rests(m, what, &moduli[l]);
+            for (sums, own) in scores.iter_mut().zip([misfits(&rests, rows), misfits_of_shape(&rests, rows)])
+            {
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
             }
         }
         scores
     });
-    let mut best: Vec<(usize, Moduli)> = Vec::new();
-    for kind in [|score: &[f64; 2]| score[0], |score: &[f64; 2]| score[1]] {
-        let least = |row: usize| {
-            let of_moduli = |l: usize| (row, kind(&scores[l][row]), l);
-            (0..moduli.len()).map(of_moduli).min_by(|a, b| a.1.total_cmp(&b.1))
-        };
-        let of_own = least(own).map_or(f64::INFINITY, |(_, score, _)| score);
-        let is_better = |(_, score, _): &(usize, f64, usize)| *score < of_own - MIN_ROUGH_GAIN;
-        let mut likeliest: Vec<(usize, f64, usize)> =
-            (0..rows).filter(|&row| row != own).filter_map(least).filter(is_better).collect();
-        likeliest.sort_by(|a, b| a.1.total_cmp(&b.1));
-        likeliest.truncate(MAX_CLOSE_ROWS);
-        for (row, _, l) in likeliest {
-            if best.iter().all(|(other, _)| *other != row) {
-                best.push((row, moduli[l].clone()));
+    let mut found: Vec<(usize, Moduli)> = Vec::new();
+    for kind in 0..2 {
+        let (least, which) = least_of_all(rows, scores.iter().map(|scores| &scores[kind]));
+        for row in best(&least, own, MAX_CLOSE_ROWS) {
+            if found.iter().all(|(other, _)| *other != row) {
+                found.push((row, moduli[which[row]].clone()));
             }
         }
     }
-    best
+    found
+}
+
+/// The least score of every row, and which of the lists has it.
+pub(super) fn least_of_all<'s>(
+    rows: usize,
+    scores: impl Iterator<Item = &'s Vec<f64>>,
+) -> (Vec<f64>, Vec<usize>) {
+    let (mut least, mut which) = (vec![f64::INFINITY; rows], vec![0; rows]);
+    for (l, scores) in scores.enumerate() {
+        for (row, &score) in scores.iter().enumerate() {
+            if score < least[row] {
+                (least[row], which[row]) = (score, l);
+            }
+        }
+    }
+    (least, which)
 }

@@ -1,12 +1,15 @@
 //! Few sensors, all fitted together: the faults that explain what the moduli alone do not.
 
+use super::Depth;
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit, ln_over_receptance};
-use super::dof_mismatch::{Tried, dof_mismatch, sweep};
+use super::dof_mismatch::{Case, Tried, dof_mismatch};
 use super::explanation::{self, Choice, EXPLAINED_MISFIT, Elsewhere, Explanation, choose};
 use super::finding::{Diagnosis, Evidence, Fault, Finding, NotJudged, OtherExplanation, OtherRow};
 use super::mesh;
 use super::moduli::{Moduli, Parametrization};
 use super::responses::{Responses, over_the_box, trained};
+use super::row_pairs::row_pairs;
+use super::rows::sweep;
 use super::search::{Fitted, Grid, Search, Written};
 use crate::c64;
 use crate::for_each::ForEach;
@@ -16,6 +19,7 @@ use crate::model::Experiment;
 use crate::quantity::Quantity;
 use crate::response::Work;
 use crate::subspace::Subspace;
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// Rows as likely as the best within this cannot be distinguished from it.
@@ -64,6 +68,8 @@ pub(super) struct Measured<'x> {
     /// `[frequency][sensor]`.
     pub(super) receptance: &'x [Vec<c64>],
     pub(super) quantities: &'x [Quantity],
+    /// Standard deviations of the receptances, where they are known.
+    pub(super) std: Option<&'x [Vec<f64>]>,
 }
 
 /// Some sensors of what was measured.
@@ -71,12 +77,15 @@ pub(super) struct Part {
     experiment: Experiment,
     quantities: Vec<Quantity>,
     receptance: Vec<Vec<c64>>,
+    std: Option<Vec<Vec<f64>>>,
 }
 
 impl Part {
     pub(super) fn of(measured: Measured<'_>, sensors: &[usize]) -> Self {
-        let Measured { experiment, receptance, quantities } = measured;
+        let Measured { experiment, receptance, quantities, std } = measured;
+        let of_sensors = |at: &Vec<f64>| sensors.iter().map(|&m| at[m]).collect();
         Self {
+            std: std.map(|std| std.iter().map(of_sensors).collect()),
             experiment: Experiment {
                 load: experiment.load.clone(),
                 sensors: sensors.iter().map(|&m| experiment.sensors[m]).collect(),
@@ -87,8 +96,8 @@ impl Part {
     }
 
     pub(super) fn measured(&self) -> Measured<'_> {
-        let Self { experiment, quantities, receptance } = self;
-        Measured { experiment, receptance, quantities }
+        let Self { experiment, quantities, receptance, std } = self;
+        Measured { experiment, receptance, quantities, std: std.as_deref() }
     }
 }
 
@@ -102,15 +111,6 @@ pub(super) struct Model<'x> {
     pub(super) sensors: Vec<usize>,
     /// How far to look.
     pub(super) depth: Depth,
-}
-
-/// How far to look.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Depth {
-    /// At everything.
-    Full,
-    /// At other rows, axes and nominal values only where much is left: before an identification, which says itself whether it explains the data.
-    Quick,
 }
 
 /// What the sensors of a band agree on.
@@ -147,7 +147,8 @@ pub(super) fn look<T>(
         frequencies: picked.len(),
         work: Work::default(),
     };
-    let written = Written(picked.iter().map(|&i| written(problem, measured, i)).collect());
+    let values = picked.iter().map(|&i| written(problem, measured, i)).collect();
+    let written = Written(values, picked.iter().map(|&i| noise(measured, i)).collect());
     if written.0.iter().flatten().flatten().count() < MIN_VALUES {
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok((diagnosis, None));
@@ -172,7 +173,8 @@ pub(super) fn look<T>(
         None => (0..measured.quantities.len()).collect(),
         Some(_) => model.sensors.clone(),
     };
-    let look = Look { problem, measured, options, for_each, written: &written, depth: model.depth };
+    let (depth, work) = (model.depth, Cell::default());
+    let look = Look { problem, measured, options, for_each, written: &written, depth, work };
     let responses = |about: &Moduli| {
         let parametrization = (parametrization.clone(), about);
         Responses::new(problem, subspace, Vec::clone(&sensors), parametrization, &frequency_hz, for_each)
@@ -193,6 +195,7 @@ pub(super) fn look<T>(
             (as_given, tried) = look.explanations(&responses_there)?;
         }
     }
+    diagnosis.work += look.work.get();
     let search = Search { responses: &responses_there, written: &written, for_each };
     let choice = choose(&as_given, &tried);
     let left = match &choice {
@@ -231,6 +234,8 @@ struct Look<'x> {
     for_each: ForEach<'x>,
     written: &'x Written,
     depth: Depth,
+    /// What trainings beyond the first have cost.
+    work: Cell<Work>,
 }
 
 impl Look<'_> {
@@ -250,9 +255,10 @@ impl Look<'_> {
         let left = |tried: &[Explanation], misfit: fn(&Fitted) -> f64| {
             tried.iter().chain([&as_given]).map(|one| misfit(&one.fitted)).fold(f64::INFINITY, f64::min)
         };
+        // Nothing is accused before everything else was looked at.
         let [of_axis, of_rows] = match self.depth {
-            Depth::Full => [UNEXPLAINED_MISFIT, EXPLAINED_MISFIT],
-            Depth::Quick => [VERY_UNEXPLAINED_MISFIT; 2],
+            Depth::Quick if choose(&as_given, &tried).is_none() => [VERY_UNEXPLAINED_MISFIT; 2],
+            Depth::Quick | Depth::Full => [UNEXPLAINED_MISFIT, EXPLAINED_MISFIT],
         };
         if left(&tried, |fitted| fitted.misfit.sigma) > of_axis {
             tried.extend(self.axis(responses, &as_given, TAU, false).unwrap_or_default());
@@ -268,6 +274,9 @@ impl Look<'_> {
                 rows.extend(self.rows(&search, &grid, beside)?);
             }
             tried.extend(rows.into_iter().filter(|one| explanation::is_large(&search, one)));
+        }
+        if left(&tried, Fitted::worst) > of_rows {
+            tried.extend(self.row_pairs(&search, &as_given)?);
         }
         if self.depth == Depth::Quick {
             return Ok((as_given, tried));
@@ -295,15 +304,44 @@ impl Look<'_> {
         beside: &Explanation,
     ) -> Result<Vec<Explanation>, OutsideTable> {
         let moduli = self.moduli_of_other_rows(search, grid, beside);
-        let (problem, experiment) = (self.problem, self.measured.experiment);
         let hypothesis = &beside.data_hypothesis;
         let seconds = if beside.faults() + 1 < MAX_FAULTS { hypothesis.edits() } else { Vec::new() };
-        let rows = dof_mismatch(search, problem, experiment, self.options, (hypothesis, &seconds), &moduli)?;
-        let explanation = |(elsewhere, second, fitted): (Elsewhere, Option<Edit>, Fitted)| match second {
-            None => beside.and(elsewhere, fitted),
-            Some(edit) => beside.changed_by(&edit, fitted.clone()).and(elsewhere, fitted),
+        let (rows, work) = dof_mismatch(search, self.case(), (hypothesis, &seconds), &moduli)?;
+        self.spent(work);
+        Ok(self.explanations_by_rows(beside, &rows))
+    }
+
+    /// Two other rows at once.
+    fn row_pairs(
+        &self,
+        search: &Search<'_, '_>,
+        as_given: &Explanation,
+    ) -> Result<Vec<Explanation>, OutsideTable> {
+        let moduli = sweep(search.responses, &as_given.fitted.moduli);
+        let (rows, work) = row_pairs(search, self.case(), &as_given.data_hypothesis, &moduli)?;
+        self.spent(work);
+        Ok(self.explanations_by_rows(as_given, &rows))
+    }
+
+    fn explanations_by_rows(&self, beside: &Explanation, rows: &[Tried]) -> Vec<Explanation> {
+        let explanation = |(elsewhere, second, fitted): (Vec<Elsewhere>, Option<Edit>, Fitted)| {
+            let first = match second {
+                None => beside.clone(),
+                Some(edit) => beside.changed_by(&edit, fitted.clone()),
+            };
+            elsewhere.into_iter().fold(first, |one, elsewhere| one.and(elsewhere, fitted.clone()))
         };
-        Ok(likeliest_rows(&rows, problem.model().dim()).into_iter().map(explanation).collect())
+        likeliest_rows(rows, self.problem.model().dim()).into_iter().map(explanation).collect()
+    }
+
+    fn case(&self) -> Case<'_> {
+        Case { problem: self.problem, experiment: self.measured.experiment, options: self.options }
+    }
+
+    fn spent(&self, work: Work) {
+        let mut sum = self.work.get();
+        sum += work;
+        self.work.set(sum);
     }
 
     /// The same data at frequencies that are smaller by a factor: as they are, with one change, and with another row where this alone explains more, or everything is tried.
@@ -374,6 +412,7 @@ impl Look<'_> {
         }
         let subspace =
             trained(problem, experiment, frequency_hz, &parametrization, &moduli, self.for_each).ok()??;
+        self.spent(subspace.work());
         let parametrization = (parametrization, &about);
         let there =
             Responses::new(problem, &subspace, self.all(), parametrization, frequency_hz, self.for_each)?;
@@ -396,10 +435,7 @@ impl Look<'_> {
             if hypothesis.sensors() == 1 {
                 return all.clone();
             }
-            let blanked = |values: &Vec<Option<c64>>| {
-                values.iter().enumerate().map(|(k, value)| value.filter(|_| k != m)).collect()
-            };
-            let others = Written(search.written.0.iter().map(blanked).collect());
+            let others = search.written.without(m);
             let known = Search { written: &others, ..*search }.fit(hypothesis, grid, &[]).moduli;
             vec![known, beside.fitted.moduli.clone()]
         };
@@ -493,6 +529,14 @@ pub(super) fn written(problem: &Problem<'_>, measured: Measured<'_>, i: usize) -
         .collect()
 }
 
+/// The variance that known noise gives the real and the imaginary part of the logarithm of each value at one frequency; zero where it is not known.
+pub(super) fn noise(measured: Measured<'_>, i: usize) -> Vec<f64> {
+    let Some(std) = measured.std else { return vec![0.0; measured.quantities.len()] };
+    let variance = |(x, std): (&c64, &f64)| 0.5 * (std / x.norm()).powi(2);
+    let variances = measured.receptance[i].iter().zip(&std[i]).map(variance);
+    variances.map(|variance| if variance.is_finite() { variance } else { 0.0 }).collect()
+}
+
 /// What an explanation says is wrong, and with which sensors.
 fn faults(search: &Search<'_, '_>, one: &Explanation) -> Vec<(Fault, Vec<usize>)> {
     let of_edit = |edit: &Edit| (fault(search, one, edit), edit.sensors.clone());
@@ -533,11 +577,15 @@ fn fault(search: &Search<'_, '_>, one: &Explanation, edit: &Edit) -> Fault {
     }
 }
 
-/// The likeliest rows of each sensor and of the load, alone and beside each change of values, with those that cannot be distinguished from them.
-fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Elsewhere, Option<Edit>, Fitted)> {
-    let is_load = |tried: &Tried| matches!(tried.what, DofMismatch::Load(_));
-    let is_same =
-        |a: &Tried, b: &Tried| is_load(a) == is_load(b) && a.sensors == b.sensors && a.second == b.second;
+/// The likeliest rows of each sensor and of the load, of two of them, and beside each change of values, with those that cannot be distinguished from them.
+fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Vec<Elsewhere>, Option<Edit>, Fitted)> {
+    let is_load = |what: DofMismatch| matches!(what, DofMismatch::Load(_));
+    let is_same = |a: &Tried, b: &Tried| {
+        let concerns = |tried: &Tried| -> Vec<(bool, Vec<usize>)> {
+            tried.places.iter().map(|(what, sensors)| (is_load(*what), sensors.clone())).collect()
+        };
+        a.second == b.second && concerns(a) == concerns(b)
+    };
     let mut groups: Vec<Vec<&Tried>> = Vec::new();
     for tried in rows {
         match groups.iter_mut().find(|group| is_same(group[0], tried)) {
@@ -548,16 +596,21 @@ fn likeliest_rows(rows: &[Tried], dim: usize) -> Vec<(Elsewhere, Option<Edit>, F
     let likeliest = |mut same: Vec<&Tried>| {
         same.sort_by(|a, b| a.fitted.nats.total_cmp(&b.fitted.nats));
         let best = same[0];
-        let alike = same.iter().take_while(|tried| tried.fitted.nats <= best.fitted.nats + EQUAL_NATS);
-        let rows: Vec<OtherRow> = alike
-            .map(|tried| {
-                let (DofMismatch::Response(row) | DofMismatch::Load(row)) = tried.what;
-                OtherRow { row, misfit: tried.fitted.misfit.sigma }
-            })
-            .collect();
-        let fault = if is_load(best) { Fault::LoadDof { rows } } else { Fault::ResponseDof { rows } };
-        // As many rows were tried as there are.
-        let elsewhere = Elsewhere { fault, sensors: best.sensors.clone(), cost: (dim.max(1) as f64).ln() };
+        let alike: Vec<&Tried> =
+            same.into_iter().take_while(|tried| tried.fitted.nats <= best.fitted.nats + EQUAL_NATS).collect();
+        let elsewhere = |(k, (what, sensors)): (usize, &(DofMismatch, Vec<usize>))| {
+            let mut rows: Vec<OtherRow> = Vec::new();
+            for tried in &alike {
+                let (DofMismatch::Response(row) | DofMismatch::Load(row)) = tried.places[k].0;
+                if rows.iter().all(|other| other.row != row) {
+                    rows.push(OtherRow { row, misfit: tried.fitted.misfit.sigma });
+                }
+            }
+            let fault = if is_load(*what) { Fault::LoadDof { rows } } else { Fault::ResponseDof { rows } };
+            // As many rows were tried as there are.
+            Elsewhere { fault, sensors: sensors.clone(), cost: (dim.max(1) as f64).ln() }
+        };
+        let elsewhere = best.places.iter().enumerate().map(elsewhere).collect();
         (elsewhere, best.second.clone(), best.fitted.clone())
     };
     groups.into_iter().map(likeliest).collect()

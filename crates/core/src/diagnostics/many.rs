@@ -8,7 +8,7 @@
 //! Of sensors that are wrong each in a way of its own, [`MAX_SUSPECTS`] are looked at: the worst.
 
 use super::data_hypothesis::{DataHypothesis, Edit};
-use super::few::{Agreed, Measured, Model, Part, look, written};
+use super::few::{Agreed, Measured, Model, Part, look, noise, written};
 use super::finding::Diagnosis;
 use super::misfit::{misfit, wrapped};
 use crate::c64;
@@ -90,18 +90,23 @@ fn own_misfits(model: &Model<'_>, measured: Measured<'_>, agreed: &Agreed<'_, '_
     let data_hypothesis = edits.iter().fold(as_given, |data_hypothesis, edit| {
         data_hypothesis.with(&Edit { change: edit.change.clone(), sensors: all.clone() })
     });
-    let mut residuals: Vec<Vec<c64>> = vec![Vec::with_capacity(picked.len()); quantities.len()];
+    let mut residuals: Vec<(Vec<c64>, Vec<f64>)> = vec![Default::default(); quantities.len()];
     for (k, &i) in picked.iter().enumerate() {
-        let x = responses.everywhere(Drive::Load, &fitted.moduli, k);
-        let values = written(model.problem, measured, i);
+        let x = responses.everywhere(Drive::Load, &fitted.moduli, &[k]).concat();
+        let (values, noise) = (written(model.problem, measured, i), noise(measured, i));
         for (m, (value, &Sensor { row, sign })) in values.into_iter().zip(&experiment.sensors).enumerate() {
             let Some(value) = value else { continue };
             let f = responses.frequency_hz[k];
             let read = data_hypothesis.reading(m, f, value).receptance(fitted.ln_factor, fitted.delay_s);
-            residuals[m].push(wrapped(read - (sign * x[row]).ln()));
+            residuals[m].0.push(wrapped(read - (sign * x[row]).ln()));
+            residuals[m].1.push(noise[m]);
         }
     }
     // Of fewer than half of the values nothing is said.
     let is_enough = |rest: &Vec<c64>| 2 * rest.len() >= picked.len();
-    residuals.iter().map(|rest| if is_enough(rest) { misfit(rest).sigma } else { f64::NAN }).collect()
+    let own = |(rest, noise): &(Vec<c64>, Vec<f64>)| match is_enough(rest) {
+        true => misfit(rest, noise).sigma,
+        false => f64::NAN,
+    };
+    residuals.iter().map(own).collect()
 }

@@ -19,6 +19,9 @@ pub(super) const MIN_MISFIT: f64 = 0.01;
 /// Rounds of reweighing; each brings σ nearer by a factor of about two, and a per cent of it is enough.
 const REWEIGHING_ROUNDS: usize = 12;
 
+/// The same beside known noise, with steps of twice the size: where noise is nearly all there is, each brings less.
+const REWEIGHING_ROUNDS_BESIDE_NOISE: usize = 60;
+
 /// The phase of a residual within ±π.
 pub(super) fn wrapped(residual: c64) -> c64 {
     // Most are: rounding is a call of the library.
@@ -36,17 +39,34 @@ pub(super) struct Misfit {
     pub(super) sigma: f64,
 }
 
-/// The misfit of residuals at their likeliest scale.
-pub(super) fn misfit(residuals: &[c64]) -> Misfit {
+/// The misfit of residuals at their likeliest scale σ, each beside the variance of its own noise n: σ² + n is that of its real and of its imaginary part.
+///
+/// Where σ is likeliest, Σ w|r|²/2v² = Σ 1/v with v = σ² + n and Student's weight w of r at v.
+pub(super) fn misfit(residuals: &[c64], noise: &[f64]) -> Misfit {
     let squares: Vec<f64> = residuals.iter().map(|r| r.norm_sqr()).collect();
-    let n = squares.len().max(1) as f64;
     let mut variance = (0.5 * median(squares.clone()).unwrap_or(0.0)).max(MIN_MISFIT * MIN_MISFIT);
-    for _ in 0..REWEIGHING_ROUNDS {
-        let weighed: f64 =
-            squares.iter().map(|r| (STUDENT_FREEDOM + 2.0) / (STUDENT_FREEDOM + r / variance) * r).sum();
-        variance = (0.5 * weighed / n).max(MIN_MISFIT * MIN_MISFIT);
+    let has_noise = noise.iter().any(|n| *n > 0.0);
+    let rounds = if has_noise { REWEIGHING_ROUNDS_BESIDE_NOISE } else { REWEIGHING_ROUNDS };
+    for _ in 0..rounds {
+        let (mut weighed, mut inverse) = (0.0, 0.0);
+        for (r, n) in squares.iter().zip(noise) {
+            let v = variance + n;
+            weighed += (STUDENT_FREEDOM + 2.0) / (STUDENT_FREEDOM + r / v) * r / (v * v);
+            inverse += 1.0 / v;
+        }
+        let ratio = if inverse > 0.0 { 0.5 * weighed / inverse } else { 0.0 };
+        let step = if has_noise { ratio * ratio } else { ratio };
+        variance = (variance * step).max(MIN_MISFIT * MIN_MISFIT);
     }
-    Misfit { nats: n * variance.ln() + tails(&squares, variance), sigma: variance.sqrt() }
+    let of_scale: f64 = noise.iter().map(|n| (variance + n).ln()).sum();
+    let tails = squares.iter().zip(noise).map(|(r, n)| (r / (STUDENT_FREEDOM * (variance + n))).ln_1p());
+    let nats = of_scale + 0.5 * (STUDENT_FREEDOM + 2.0) * tails.sum::<f64>();
+    Misfit { nats, sigma: variance.sqrt() }
+}
+
+/// A residual as large at a scale without noise of its own as it is beside its noise.
+pub(super) fn beside_noise(residual: c64, noise: f64, scale: f64) -> c64 {
+    if noise > 0.0 { residual * (scale / scale.hypot(noise.sqrt())) } else { residual }
 }
 
 /// The misfit at a scale that is given, up to a constant: for comparing starts from afar.
@@ -112,11 +132,6 @@ pub(super) fn weight(residual: c64, sigma: f64) -> f64 {
     (STUDENT_FREEDOM + 2.0) / (STUDENT_FREEDOM + residual.norm_sqr() / (sigma * sigma))
 }
 
-fn tails(squares: &[f64], variance: f64) -> f64 {
-    0.5 * (STUDENT_FREEDOM + 2.0)
-        * squares.iter().map(|r| (r / (STUDENT_FREEDOM * variance)).ln_1p()).sum::<f64>()
-}
-
 /// Half a turn.
 pub(super) const HALF_TURN: f64 = PI;
 
@@ -128,12 +143,40 @@ mod tests {
     fn the_scale_is_that_of_most() {
         // Nine of ten on a circle of radius 0.1 (√2 σ), one far away.
         let mut residuals: Vec<c64> = (0..18).map(|k| c64::from_polar(0.1, k as f64)).collect();
-        let without = misfit(&residuals).sigma;
+        let without = misfit(&residuals, &[0.0; 18]).sigma;
         residuals.extend([c64::new(5.0, 1.0); 2]);
-        let with = misfit(&residuals).sigma;
+        let with = misfit(&residuals, &[0.0; 20]).sigma;
         assert!(without > 0.05 && with < 2.0 * without, "{without} {with}");
-        assert_eq!(misfit(&[c64::default(); 4]).sigma, MIN_MISFIT);
-        assert!(misfit(&[]).nats.is_finite());
+        assert_eq!(misfit(&[c64::default(); 4], &[0.0; 4]).sigma, MIN_MISFIT);
+        assert!(misfit(&[], &[]).nats.is_finite());
+    }
+
+    #[test]
+    fn the_scale_is_what_known_noise_does_not_explain() {
+        // Half of the values have a noise of ten times the scale: by Student's tails alone they would raise it.
+        let of = |size: f64, k: usize| c64::from_polar(2f64.sqrt() * size, k as f64);
+        let residuals: Vec<c64> = (0..40).map(|k| of(if k % 2 == 0 { 0.05 } else { 0.5 }, k)).collect();
+        let noise: Vec<f64> = (0..40).map(|k| if k % 2 == 0 { 0.0 } else { 0.25 }).collect();
+        let [with, without] = [&noise[..], &[0.0; 40]].map(|noise| misfit(&residuals, noise).sigma);
+        let of_quiet = misfit(&residuals.iter().copied().step_by(2).collect::<Vec<_>>(), &[0.0; 20]).sigma;
+        assert!(
+            (with / of_quiet - 1.0).abs() < 0.1 && without > 1.5 * of_quiet,
+            "{with} {without} {of_quiet}"
+        );
+        // The likelihood is largest there.
+        let nats = |sigma: f64| -> f64 {
+            let of = |(r, n): (&c64, &f64)| {
+                let v = sigma * sigma + n;
+                v.ln() + misfit_at(std::iter::once(*r), v.sqrt())
+            };
+            residuals.iter().zip(&noise).map(of).sum()
+        };
+        let least = misfit(&residuals, &noise);
+        assert!((nats(least.sigma) - least.nats).abs() < 1e-9);
+        assert!(nats(0.9 * with) > least.nats && nats(1.1 * with) > least.nats);
+        // Noise alone leaves nothing.
+        let noise: Vec<f64> = residuals.iter().map(|r| 0.6 * r.norm_sqr()).collect();
+        assert_eq!(misfit(&residuals, &noise).sigma, MIN_MISFIT);
     }
 
     #[test]

@@ -25,6 +25,8 @@ mod mesh;
 mod misfit;
 mod moduli;
 mod responses;
+mod row_pairs;
+mod rows;
 mod search;
 
 pub use explanation::{FINDING_NATS, MAX_MISFIT_RATIO, MIN_MARGIN_NATS};
@@ -34,10 +36,20 @@ pub use finding::{
 };
 
 use crate::for_each::ForEach;
-use crate::identify::{Context, Options, Problem, ProblemError, ReducedBand, dead_channels};
+use crate::identify::{Context, Noise, Options, Problem, ProblemError, ReducedBand, dead_channels};
 use crate::quantity::Quantity;
 use crate::subspace::Subspace;
-use few::{Depth, Measured, Model, Part};
+use few::{Measured, Model, Part};
+
+/// How far to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// At everything.
+    Full,
+    /// Before an identification, which says itself whether it explains the data: at other rows and axes only where much is left (a misfit of 0.3) or
+    /// something else would be accused, and not at nominal values that are powers of ten off.
+    Quick,
+}
 
 /// Looks for what is wrong with a band's data against its model; `quantities` says what each sensor's values were before they were made receptances.
 ///
@@ -65,12 +77,11 @@ pub fn diagnose(
 /// The same on a reduced model that is shared with [`identify_on`](crate::identify::identify_on), and trained now where it is not
 /// yet: for all unknowns and sensors one, and no factorisation except in the search for another row or axis.
 ///
-/// That is done only where much is left (a misfit of 0.3), and nominal values that are powers of ten off are not searched: an identification says itself whether it explains the data.
-///
 /// # Errors
 /// As [`diagnose`].
 pub fn diagnose_on<'a>(
     reduced: &mut ReducedBand<'a>,
+    depth: Depth,
     problem: &'a Problem<'a>,
     quantities: &[Quantity],
     options: &Options,
@@ -79,7 +90,7 @@ pub fn diagnose_on<'a>(
     let before = reduced.work();
     let context = Context { for_each, progress: &|_, _, _| {} };
     let trained = reduced.trained(problem, options, context)?;
-    let mut found = diagnose_by((trained, Depth::Quick), problem, quantities, options, for_each)?;
+    let mut found = diagnose_by((trained, depth), problem, quantities, options, for_each)?;
     found.work += reduced.work().since(before);
     Ok(found)
 }
@@ -99,7 +110,11 @@ fn diagnose_by(
     let receptance = problem.frfs().receptance;
     let dead = dead_channels(receptance);
     let live: Vec<usize> = (0..sensors).filter(|m| !dead.contains(m)).collect();
-    let all = Measured { experiment: problem.experiment(), receptance, quantities };
+    let std = match problem.frfs().noise {
+        Noise::Known(std) => Some(std),
+        Noise::Relative(_) | Noise::Unknown => None,
+    };
+    let all = Measured { experiment: problem.experiment(), receptance, quantities, std };
     let part = Part::of(all, &live);
     let measured = if dead.is_empty() { all } else { part.measured() };
     let model = Model { problem, trained, sensors: live.clone(), depth };

@@ -196,12 +196,12 @@ impl<'a> Responses<'a> {
         (x.iter().map(|x| x.ln()).collect(), slopes)
     }
 
-    /// x at every row of the model at the i-th frequency.
-    pub(super) fn everywhere(&self, drive: Drive, moduli: &Moduli, i: usize) -> Vec<c64> {
-        let coordinates = match &self.sums {
+    /// x at every row of the model at some of the frequencies, `[frequency][row]`.
+    pub(super) fn everywhere(&self, drive: Drive, moduli: &Moduli, at: &[usize]) -> Vec<Vec<c64>> {
+        let coordinates = at.iter().map(|&i| match &self.sums {
             Sums::Poles { each, nominal } => each[i].coordinates(drive, self.correction(nominal, moduli, i)),
             Sums::Modes(modes) => modes.coordinates(drive, &self.inverse(moduli, i)),
-        };
-        self.subspace.everywhere(&coordinates)
+        });
+        self.subspace.everywhere(&coordinates.collect::<Vec<_>>())
     }
 }

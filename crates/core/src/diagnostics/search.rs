@@ -1,7 +1,7 @@
 //! The likeliest moduli for a way to read the data: a grid of starts, then least squares of the misfit from the best of them.
 
 use super::data_hypothesis::{DataHypothesis, Reading};
-use super::misfit::{Misfit, START_SCALE, misfit, misfit_at, robust, weight, wrapped};
+use super::misfit::{Misfit, START_SCALE, beside_noise, misfit, misfit_at, robust, weight, wrapped};
 use super::moduli::Moduli;
 use super::responses::Responses;
 use crate::c64;
@@ -52,20 +52,38 @@ const NOMINAL_LN_STD: f64 = 0.7;
 /// Step of a coordinate for the slope of how far it is beyond its bounds.
 const DIFFERENCE_STEP: f64 = 1e-6;
 
-/// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number.
-pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>);
+/// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number. Then the variance that their noise gives the
+/// real and the imaginary part of that logarithm, zero where it is not known.
+pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>, pub(super) Vec<Vec<f64>>);
+
+impl Written {
+    /// All values but those of one sensor.
+    pub(super) fn without(&self, sensor: usize) -> Self {
+        let blanked = |values: &Vec<Option<c64>>| {
+            values.iter().enumerate().map(|(m, value)| value.filter(|_| m != sensor)).collect()
+        };
+        Self(self.0.iter().map(blanked).collect(), self.1.clone())
+    }
+}
 
 /// A measured value beside the model's.
 struct Compared {
     /// Which of all values `[frequency][sensor]`, one after the other.
     at: usize,
     measured: Reading,
+    /// Variance of its noise.
+    noise: f64,
 }
 
 impl Compared {
     /// ln(measured/model), with the model's logarithms given.
     fn residual(&self, ln: &[c64], ln_factor: f64, delay_s: f64) -> c64 {
         wrapped(self.measured.receptance(ln_factor, delay_s) - ln[self.at])
+    }
+
+    /// The same, as large at [`START_SCALE`] as it is beside its noise.
+    fn rough(&self, ln: &[c64], ln_factor: f64, delay_s: f64) -> c64 {
+        beside_noise(self.residual(ln, ln_factor, delay_s), self.noise, START_SCALE)
     }
 }
 
@@ -155,6 +173,7 @@ impl Search<'_, '_> {
             Some(Compared {
                 at,
                 measured: data_hypothesis.reading(m, self.responses.frequency_hz[i], written),
+                noise: self.written.1[i][m],
             })
         };
         (0..self.written.0.len() * sensors).filter_map(one).collect()
@@ -218,7 +237,7 @@ impl Search<'_, '_> {
             if data_hypothesis.free()[1] {
                 start = self.with_delay(data_hypothesis, &values, start);
             }
-            let residuals = values.iter().map(|value| value.residual(&ln, start.1, start.2));
+            let residuals = values.iter().map(|value| value.rough(&ln, start.1, start.2));
             (misfit_at(residuals, START_SCALE), start)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -260,7 +279,7 @@ impl Search<'_, '_> {
         let delays =
             (-steps..=steps).map(|k| k as f64 * DELAY_PHASE_STEP_RAD / top).chain(std::iter::once(delay_s));
         let scored = delays.map(|tau| {
-            let residuals = values.iter().map(|value| value.residual(&ln, ln_factor, tau));
+            let residuals = values.iter().map(|value| value.rough(&ln, ln_factor, tau));
             (misfit_at(residuals, START_SCALE), tau)
         });
         let best = scored.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, tau)| tau);
@@ -319,13 +338,16 @@ impl Search<'_, '_> {
         let (moduli, ln_factor, delay_s) = start;
         let ln = self.ln(data_hypothesis, moduli);
         let sensors = data_hypothesis.sensors();
-        let mut by_sensor: Vec<Vec<c64>> = vec![Vec::new(); sensors];
+        let mut by_sensor: Vec<(Vec<c64>, Vec<f64>)> = vec![Default::default(); sensors];
         for value in self.compared(data_hypothesis) {
-            by_sensor[value.at % sensors].push(value.residual(&ln, *ln_factor, *delay_s));
+            let (rest, noise) = &mut by_sensor[value.at % sensors];
+            rest.push(value.residual(&ln, *ln_factor, *delay_s));
+            noise.push(value.noise);
         }
-        let rest = by_sensor.concat();
-        let own = by_sensor.iter().map(|own| misfit(own).sigma).collect();
-        let misfit = misfit(&rest);
+        let own = by_sensor.iter().map(|(rest, noise)| misfit(rest, noise).sigma).collect();
+        let (rest, noise): (Vec<Vec<c64>>, Vec<Vec<f64>>) = by_sensor.into_iter().unzip();
+        let rest = rest.concat();
+        let misfit = misfit(&rest, &noise.concat());
         let beyond: f64 = self.beyond(moduli).iter().map(|b| b * b).sum();
         let far: f64 = self.far(moduli).map(|far| far * far).sum();
         let count = self.coordinates(data_hypothesis, start).len();
@@ -407,7 +429,11 @@ impl Search<'_, '_> {
         let compared = self.compared(data_hypothesis);
         let evaluate = |theta: &[f64]| {
             let (residuals, slopes) = self.with_slopes(data_hypothesis, &compared, theta);
-            let turned: Vec<_> = residuals.iter().map(|&r| robust(r, scale)).collect();
+            let turned: Vec<_> = residuals
+                .iter()
+                .zip(&compared)
+                .map(|(&r, value)| robust(r, scale.hypot(value.noise.sqrt())))
+                .collect();
             let beyond = self.beyond(&self.parts(data_hypothesis, theta).0);
             let bounds = beyond.iter().map(|b| BOUND_PENALTY.sqrt() * b);
             let far = |theta: &[f64]| self.far(&self.parts(data_hypothesis, theta).0).collect::<Vec<f64>>();
@@ -446,12 +472,16 @@ impl Search<'_, '_> {
     ) -> [Option<f64>; 2] {
         let start = (fitted.moduli.clone(), fitted.ln_factor, fitted.delay_s);
         let at = self.coordinates(data_hypothesis, &start);
-        let (about, slopes) = self.with_slopes(data_hypothesis, &self.compared(data_hypothesis), &at);
+        let compared = self.compared(data_hypothesis);
+        let (about, slopes) = self.with_slopes(data_hypothesis, &compared, &at);
         let sigma = fitted.misfit.sigma;
         let product = |a: &[c64], b: &[c64]| -> f64 {
-            let terms = a.iter().zip(b).zip(&about);
-            terms.map(|((a, b), r)| weight(*r, sigma) * (a.re * b.re + a.im * b.im)).sum::<f64>()
-                / (sigma * sigma)
+            let terms = a.iter().zip(b).zip(about.iter().zip(&compared));
+            let term = |((a, b), (r, value)): ((&c64, &c64), (&c64, &Compared))| {
+                let variance = sigma * sigma + value.noise;
+                weight(*r, variance.sqrt()) * (a.re * b.re + a.im * b.im) / variance
+            };
+            terms.map(term).sum()
         };
         let [factor, delay] = data_hypothesis.free();
         let size = at.len() - usize::from(factor) - usize::from(delay);
@@ -501,7 +531,7 @@ fn score(values: &[Compared], ln: &[c64]) -> (f64, f64) {
     let of_factor = values.iter().filter(|value| value.measured.factor > 0.0);
     let ln_factor = median(of_factor.map(|value| value.residual(ln, 0.0, 0.0).re).collect()).unwrap_or(0.0);
     let residual = |value: &Compared| {
-        let residual = value.residual(ln, ln_factor, 0.0);
+        let residual = value.rough(ln, ln_factor, 0.0);
         // A phase that a delay may have turned is not used yet.
         if value.measured.turn > 0.0 { c64::new(residual.re, 0.0) } else { residual }
     };

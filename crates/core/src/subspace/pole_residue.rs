@@ -99,11 +99,11 @@ impl PoleResidue {
 }
 
 impl Subspace<'_> {
-    /// x = V y at every row of the model.
+    /// x = V y at every row of the model, for each of some y.
     ///
     /// # Limits
     /// The basis is trained for the sensors, where the error is a product of two small residuals; elsewhere it is of the size of one.
-    pub fn everywhere(&self, coordinates: &[c64]) -> Vec<c64> {
-        self.basis.vectors().combine(coordinates)
+    pub fn everywhere(&self, coordinates: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        self.basis.vectors().combine_all(coordinates)
     }
 }

@@ -12,7 +12,7 @@ use frfit_bench::zoo::report::{LEGEND, described, markdown};
 use frfit_bench::zoo::tried;
 
 fn main() -> Result<(), Failure> {
-    let (indices, seed) = arguments([40, 1])?;
+    let (indices, seed, _) = arguments([40, 1], None)?;
     println!("Right models: what is identified of what is identifiable\n{}\n", machine());
     let all = Cases::try_all(&indices, |index| tried(seed, index), described)?;
     println!("{} cases of seed {seed}\n\n{}\n\n{LEGEND}", all.tried.len(), markdown(&all.tried));
