@@ -49,7 +49,7 @@ struct request {
 struct outcome {
     int32_t code, detail; /* INFOG(1) and INFOG(2) of MUMPS */
     int64_t negative;     /* eigenvalues below zero; -1: not counted */
-    int64_t bytes;        /* of a factor, all ranks together; of a forecast: needed on the fullest machine */
+    int64_t bytes;        /* of a forecast: needed on the fullest machine; of an analysis: by this rank */
 };
 
 struct settings {
@@ -69,7 +69,6 @@ struct pattern {
 struct instance {
     uint32_t scalar, pattern, factor;
     int busy;
-    int64_t megabytes; /* that this rank needs for a factor */
     struct outcome analysis;
     void *solver;
     struct instance *next;
@@ -98,7 +97,6 @@ static void *reserve(size_t bytes)
     return memory;
 }
 
-static int64_t real_megabytes, complex_megabytes;
 enum { real_inertia = 1, complex_inertia = 0 };
 
 #define SOLVER DMUMPS_STRUC_C
@@ -264,7 +262,6 @@ static struct instance *analysed(uint32_t id, uint32_t scalar)
     struct instance *made = reserve(sizeof *made);
     *made = (struct instance){.scalar = scalar, .pattern = id, .next = instances};
     made->solver = (scalar == REAL ? real_analyse : complex_analyse)(pattern_of(id), &settings, &made->analysis);
-    made->megabytes = scalar == REAL ? real_megabytes : complex_megabytes;
     return instances = made;
 }
 
@@ -317,7 +314,7 @@ static void forget_pattern(uint32_t id)
     }
 }
 
-static int64_t available_megabytes(void)
+static int64_t available_bytes(void)
 {
     long long kilobytes = -1;
     char line[128];
@@ -327,7 +324,7 @@ static int64_t available_megabytes(void)
             break;
     if (file)
         fclose(file);
-    return kilobytes < 0 ? -1 : kilobytes / 1000;
+    return kilobytes < 0 ? -1 : kilobytes * 1000; /* KiB taken for kB: some room is left */
 }
 
 /* How much a factor takes on the machine where it takes the largest part of what is free there. */
@@ -337,15 +334,15 @@ static void forecast(const struct request *request, struct outcome *outcome, int
     *outcome = instance->analysis;
     MPI_Comm machine;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-    long long needed[2] = {instance->megabytes, 0}, mine = instance->megabytes;
+    long long needed[2] = {0, 0}, mine = instance->analysis.bytes;
     MPI_Allreduce(&mine, &needed[0], 1, MPI_LONG_LONG, MPI_SUM, machine);
     MPI_Comm_free(&machine);
-    needed[1] = available_megabytes();
+    needed[1] = available_bytes();
     struct { double share; int rank; } fullest = {needed[1] > 0 ? (double)needed[0] / (double)needed[1] : 0.0, rank};
     MPI_Allreduce(MPI_IN_PLACE, &fullest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, MPI_COMM_WORLD);
     MPI_Bcast(needed, 2, MPI_LONG_LONG, fullest.rank, MPI_COMM_WORLD);
-    outcome->bytes = needed[0] * 1000000;
-    *available = needed[1] < 0 ? -1 : needed[1] * 1000000;
+    outcome->bytes = needed[0];
+    *available = needed[1];
 }
 
 static void factor(const struct request *request, struct outcome *outcome)

@@ -16,6 +16,8 @@ mod outside;
 #[path = "../../figures/tests/picture/mod.rs"]
 mod picture;
 mod plate;
+#[path = "../../engine/tests/ranks/mod.rs"]
+mod ranks;
 mod refusals;
 mod report;
 mod several;

@@ -1,13 +1,12 @@
 //! Factors by ranks of MUMPS, in place of our own.
 
 use crate::common;
+use crate::ranks::{launcher, program};
 
 use common::{column, done, refused};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
-
-const RANKS: &str = "mpirun --oversubscribe --allow-run-as-root -n 3";
 
 /// The example in a short band, with these lines after it.
 fn sandwich(folder: &Path, lines: &str) {
@@ -18,12 +17,10 @@ fn sandwich(folder: &Path, lines: &str) {
     fs::write(folder.join("s/case.toml"), short + lines).unwrap();
 }
 
-/// The program of the ranks, where `cargo xtask test` builds it.
+/// The command, with the program of the ranks in its environment.
 fn with_ranks(folder: &Path, arguments: &[&str]) -> Command {
-    let built = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/mumps/frfit-mumps"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_frfit"));
-    command.args(arguments).current_dir(folder);
-    command.env("FRFIT_MUMPS", std::env::var_os("FRFIT_MUMPS").unwrap_or(built.into()));
+    command.args(arguments).current_dir(folder).env("FRFIT_MUMPS", program());
     command
 }
 
@@ -41,7 +38,7 @@ fn a_case_starts_no_other_program() {
 fn a_launcher_without_its_engine_is_refused_and_so_is_one_that_is_not_there() {
     let folder = tempfile::tempdir().unwrap();
     sandwich(folder.path(), "");
-    let words = refused(folder.path(), &["identify", "s/case.toml", "--launch", RANKS]);
+    let words = refused(folder.path(), &["identify", "s/case.toml", "--launch", &launcher(3)]);
     assert!(words.contains("--launch: expected --engine mumps beside it"), "{words}");
     let words = refused(folder.path(), &["identify", "s/case.toml", "--engine", "pardiso"]);
     assert!(words.contains("--engine: expected \"multifrontal\" or \"mumps\", found \"pardiso\""), "{words}");
@@ -56,8 +53,17 @@ fn ranks_give_the_same_answers_needs_mumps() {
     let folder = tempfile::tempdir().unwrap();
     sandwich(folder.path(), "");
     done(folder.path(), &["--quiet", "identify", "s/case.toml", "--out", "own"]);
-    let ranks =
-        ["--quiet", "identify", "s/case.toml", "--out", "ranks", "--engine", "mumps", "--launch", RANKS];
+    let ranks = [
+        "--quiet",
+        "identify",
+        "s/case.toml",
+        "--out",
+        "ranks",
+        "--engine",
+        "mumps",
+        "--launch",
+        &launcher(3),
+    ];
     let output = with_ranks(folder.path(), &ranks).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let table = |out: &str| fs::read_to_string(folder.path().join(out).join("identified.csv")).unwrap();
@@ -83,13 +89,11 @@ fn ranks_that_end_are_said_with_their_words_needs_mumps() {
     sandwich(folder.path(), "");
     // Every rank ends itself some time after it has begun; the launcher says which signal it was.
     let script = folder.path().join("ranks.sh");
-    let program = with_ranks(folder.path(), &[]);
-    let program = program.get_envs().find_map(|(_, value)| value).unwrap().to_owned();
     let full = ["identify", "s/case.toml", "--out", "out", "--reduction", "full"];
-    let arguments = [&full[..], &["--engine", "mumps", "--launch", RANKS]].concat();
+    let launcher = launcher(3);
+    let arguments = [&full[..], &["--engine", "mumps", "--launch", &launcher]].concat();
     for seconds in ["0.3", "1.5"] {
-        let text =
-            format!("#!/bin/sh\n(sleep {seconds}; kill -9 $$) &\nexec {}\n", program.to_string_lossy());
+        let text = format!("#!/bin/sh\n(sleep {seconds}; kill -9 $$) &\nexec {}\n", program().display());
         fs::write(&script, text).unwrap();
         fs::set_permissions(&script, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
         let output = with_ranks(folder.path(), &arguments).env("FRFIT_MUMPS", &script).output().unwrap();

@@ -1,60 +1,18 @@
 //! The socket to rank 0, and the process that holds the ranks: whichever ends first ends the other.
 
-use crate::protocol::{FOLDER, OUTCOME, Outcome, RankUsage, Request, Verb, Wire, f64_at, i64_at};
+use crate::job::Job;
+use crate::protocol::{FOLDER, OUTCOME, Outcome, RankUsage, Request, Verb, Wire, at};
 use frfit_linalg::solve::Breakdown;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
-use std::process::Child;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How often a wait looks whether the ranks are still there.
 pub(crate) const LOOK: Duration = Duration::from_millis(200);
-/// How long ranks may take to end by themselves.
+/// How long ranks may take to end without being killed.
 const END: Duration = Duration::from_secs(5);
 /// Numbers that are turned into bytes at a time.
 const PIECE: usize = 1 << 16;
-
-/// The process that holds the ranks, and what it wrote.
-#[derive(Debug)]
-pub(crate) struct Job {
-    pub(crate) child: Child,
-    pub(crate) words: Arc<Mutex<Vec<u8>>>,
-    pub(crate) reader: Option<JoinHandle<()>>,
-}
-
-impl Job {
-    pub(crate) fn has_ended(&mut self) -> bool {
-        !matches!(self.child.try_wait(), Ok(None))
-    }
-
-    /// What it wrote to standard error, without control characters and without the frames that launchers draw.
-    pub(crate) fn words(&mut self) -> String {
-        if self.has_ended()
-            && let Some(reader) = self.reader.take()
-        {
-            let _ = reader.join(); // so that nothing of it is missing
-        }
-        let bytes = self.words.lock().unwrap_or_else(PoisonError::into_inner);
-        let text = String::from_utf8_lossy(&bytes);
-        let lines = text.lines().map(|line| line.chars().filter(|one| !one.is_control()).collect::<String>());
-        let lines = lines.filter(|line| line.chars().any(char::is_alphanumeric));
-        lines.map(|line| line.trim().to_owned()).collect::<Vec<_>>().join(" ")
-    }
-
-    /// Waits for its end, and makes it end where it does not.
-    pub(crate) fn end(&mut self, patience: Duration) {
-        let start = Instant::now();
-        while !self.has_ended() && start.elapsed() < patience {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        if !self.has_ended() {
-            let _ = self.child.kill();
-            let _ = self.child.wait();
-        }
-    }
-}
 
 /// A client's side of the protocol.
 #[derive(Debug)]
@@ -100,7 +58,7 @@ impl Connection {
         let outcome = self.ask(request, |_| Ok(()))?;
         let mut available = [0; 8];
         self.guarded(|stream| stream.receive(&mut available))?;
-        Ok((outcome.check()?, i64_at(&available, 0)))
+        Ok((outcome.check()?, at(&available, 0)))
     }
 
     pub(crate) fn factor<T: Wire>(&mut self, request: Request, values: &[T]) -> Result<Outcome, Breakdown> {
@@ -122,7 +80,7 @@ impl Connection {
             stream.send(&Request::new(Verb::Usage).bytes())?;
             stream.receive(&mut bytes)
         })?;
-        let of = |bytes: &[u8]| RankUsage { peak_bytes: f64_at(bytes, 0), cpu_s: f64_at(bytes, 8) };
+        let of = |bytes: &[u8]| RankUsage { peak_bytes: at(bytes, 0), cpu_s: at(bytes, 8) };
         Ok(bytes.chunks_exact(16).map(of).collect())
     }
 

@@ -1,22 +1,20 @@
 //! The command that starts the ranks, and what can be wrong with it.
 
-use crate::connection::{Connection, Job, LOOK};
-use crate::protocol::{FOLDER, GREETING, TOKEN, VERSION, u32_at};
+use crate::connection::{Connection, LOOK};
+use crate::job::Job;
+use crate::protocol::{FOLDER, GREETING, TOKEN, VERSION, at};
 use std::fmt;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long the ranks may take to call, unless [`Launch::patience`] says otherwise: a cluster may let a job wait.
 const PATIENCE: Duration = Duration::from_secs(300);
 /// How long a caller may take to show its token.
 const GREETING_PATIENCE: Duration = Duration::from_secs(10);
-/// What of the job's words is kept.
-const MAX_WORDS: usize = 1 << 14;
 
 /// How the ranks are started.
 #[derive(Debug, Clone)]
@@ -186,33 +184,15 @@ fn greeting(stream: &TcpStream, token: &str) -> Option<(u32, Greeting)> {
     let (shown, said) = bytes.split_at(TOKEN);
     let version = said[8..].split(|&byte| byte == 0).next().unwrap_or_default();
     let greeting = Greeting {
-        ranks: u32_at(said, 4) as usize,
+        ranks: at::<u32>(said, 4) as usize,
         version: String::from_utf8_lossy(version).chars().filter(|one| !one.is_control()).collect(),
     };
-    (shown == token.as_bytes()).then_some((u32_at(said, 0), greeting))
+    (shown == token.as_bytes()).then_some((at(said, 0), greeting))
 }
 
 /// 256 bits that nobody can guess: the keys of the standard library's hash maps are the system's random numbers.
 fn token() -> String {
     (0..4).map(|_| format!("{:016x}", RandomState::new().build_hasher().finish())).collect()
-}
-
-impl Job {
-    fn of(mut child: std::process::Child) -> Self {
-        let words = Arc::new(Mutex::new(Vec::new()));
-        let reader = child.stderr.take().map(|mut stderr| {
-            let words = Arc::clone(&words);
-            std::thread::spawn(move || {
-                let mut piece = [0; 1024];
-                while let Ok(count @ 1..) = stderr.read(&mut piece) {
-                    let mut words = words.lock().unwrap_or_else(PoisonError::into_inner);
-                    let room = MAX_WORDS.saturating_sub(words.len());
-                    words.extend(&piece[..count.min(room)]);
-                }
-            })
-        });
-        Self { child, words, reader }
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 //! | file | what is in it |
 //! |---|---|
 //! | `launch.rs` | the command that starts the ranks, and what can be wrong with it |
-//! | `connection.rs` | the socket to rank 0, watched with the process that holds the ranks |
+//! | `job.rs` | the process that holds the ranks, and its words |
+//! | `connection.rs` | the socket to rank 0, watched with that process |
 //! | `protocol.rs` | requests and outcomes, byte by byte |
 //! | `factor.rs` | an engine of [`frfit_linalg`] made of them |
 //!
@@ -16,6 +17,7 @@
 
 mod connection;
 mod factor;
+mod job;
 mod launch;
 mod protocol;
 

@@ -78,12 +78,7 @@ pub(crate) const OUTCOME: usize = 24;
 
 impl Outcome {
     pub(crate) fn of(bytes: &[u8; OUTCOME]) -> Self {
-        Self {
-            code: i32_at(bytes, 0),
-            detail: i32_at(bytes, 4),
-            negative: i64_at(bytes, 8),
-            bytes: i64_at(bytes, 16),
-        }
+        Self { code: at(bytes, 0), detail: at(bytes, 4), negative: at(bytes, 8), bytes: at(bytes, 16) }
     }
 
     /// The codes of MUMPS as outcomes of ours (users' guide of 5.5, section 8).
@@ -100,20 +95,9 @@ impl Outcome {
     }
 }
 
-pub(crate) fn u32_at(bytes: &[u8], at: usize) -> u32 {
-    u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
-}
-
-fn i32_at(bytes: &[u8], at: usize) -> i32 {
-    i32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
-}
-
-pub(crate) fn i64_at(bytes: &[u8], at: usize) -> i64 {
-    i64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight bytes"))
-}
-
-pub(crate) fn f64_at(bytes: &[u8], at: usize) -> f64 {
-    f64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight bytes"))
+/// The number that begins at a byte.
+pub(crate) fn at<T: Wire>(bytes: &[u8], place: usize) -> T {
+    T::get(&bytes[place..])
 }
 
 /// What a rank has used.
@@ -132,32 +116,26 @@ pub(crate) trait Wire: Copy {
     fn get(from: &[u8]) -> Self;
 }
 
-impl Wire for u32 {
-    const BYTES: usize = 4;
+macro_rules! wire {
+    ($($number:ty),*) => {$(
+        impl Wire for $number {
+            const BYTES: usize = size_of::<Self>();
 
-    fn put(self, to: &mut Vec<u8>) {
-        to.extend(self.to_le_bytes());
-    }
+            fn put(self, to: &mut Vec<u8>) {
+                to.extend(self.to_le_bytes());
+            }
 
-    fn get(from: &[u8]) -> Self {
-        u32_at(from, 0)
-    }
+            fn get(from: &[u8]) -> Self {
+                Self::from_le_bytes(from[..Self::BYTES].try_into().expect("as many bytes"))
+            }
+        }
+    )*};
 }
 
-impl Wire for f64 {
-    const BYTES: usize = 8;
-
-    fn put(self, to: &mut Vec<u8>) {
-        to.extend(self.to_le_bytes());
-    }
-
-    fn get(from: &[u8]) -> Self {
-        f64_at(from, 0)
-    }
-}
+wire!(u32, i32, i64, f64);
 
 impl Wire for c64 {
-    const BYTES: usize = 16;
+    const BYTES: usize = 2 * f64::BYTES;
 
     fn put(self, to: &mut Vec<u8>) {
         self.re.put(to);
@@ -165,7 +143,7 @@ impl Wire for c64 {
     }
 
     fn get(from: &[u8]) -> Self {
-        Self::new(f64_at(from, 0), f64_at(from, 8))
+        Self::new(at(from, 0), at(from, f64::BYTES))
     }
 }
 
@@ -190,11 +168,8 @@ mod tests {
     fn a_request_is_as_the_ranks_read_it() {
         let request = Request { pattern: 7, size: 3, entries: 1 << 33, ..Request::new(Verb::Pattern) };
         let bytes = request.bytes();
-        assert_eq!(
-            [u32_at(&bytes, 0), u32_at(&bytes, 4), u32_at(&bytes, 8), u32_at(&bytes, 12)],
-            [2, 0, 7, 0]
-        );
-        assert_eq!([i64_at(&bytes, 16), i64_at(&bytes, 24)], [3, 1 << 33]);
+        assert_eq!([0, 4, 8, 12].map(|place| at::<u32>(&bytes, place)), [2, 0, 7, 0]);
+        assert_eq!([16, 24].map(|place| at::<i64>(&bytes, place)), [3, 1 << 33]);
     }
 
     #[test]

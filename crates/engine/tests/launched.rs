@@ -1,15 +1,14 @@
 //! Jobs of `frfit-mumps`, which `cargo xtask test` builds where MUMPS and MPI are installed.
 
+use crate::ranks;
 use frfit_engine::{Launch, Mumps};
 use frfit_linalg::c64;
 use frfit_linalg::sparse::{SymmetricMatrix, Triplets};
-use std::path::PathBuf;
 
-/// So many ranks on this machine, whether or not it has as many cores.
+/// So many ranks on this machine.
 pub(crate) fn launch(ranks: usize) -> Launch {
-    let built = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/mumps/frfit-mumps"));
-    let mut launch = Launch::by(&format!("mpirun --oversubscribe --allow-run-as-root -n {ranks}"));
-    launch.program = std::env::var_os("FRFIT_MUMPS").map_or_else(built, PathBuf::from);
+    let mut launch = Launch::by(&ranks::launcher(ranks));
+    launch.program = ranks::program();
     launch
 }
 

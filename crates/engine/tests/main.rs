@@ -3,3 +3,4 @@
 mod factors;
 mod jobs;
 mod launched;
+mod ranks;

@@ -15,7 +15,6 @@ pub(crate) fn run(args: &Args, identify: &Identify) -> Result<Outcome, Failure> 
     let overrides = Overrides {
         method: identify.method.clone(),
         order: identify.order,
-
         selection: identify.selection.clone(),
         reduction: identify.reduction.clone(),
         reduced: identify.reduced.clone(),

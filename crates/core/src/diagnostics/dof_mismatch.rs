@@ -3,14 +3,13 @@
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit};
 use super::moduli::{Moduli, Parametrization};
 use super::responses::{Responses, trained};
-use super::rows::{Rows, What, best, driven_row, misfits, misfits_of_shape};
+use super::rows::{LoadScan, Rows, best, driven_at, driven_row};
 use super::search::{Fitted, Search, Start};
 use crate::for_each::map;
 use crate::identify::{Options, Problem};
 use crate::material::OutsideTable;
 use crate::model::{Experiment, Sensor};
 use crate::response::Work;
-use crate::subspace::{Drive, Subspace};
 
 /// Rows that are looked at more closely for a sensor or the load, of each kind of comparison.
 const MAX_CLOSE_ROWS: usize = 4;
@@ -42,11 +41,14 @@ pub(super) struct Case<'x> {
 }
 
 /// The best rows for every sensor and for the load, alone and beside each of some changes of values, each fitted on a model that was trained for it.
+///
+/// Sensors come with the moduli that rows are compared with, the load with what came of all rows.
 pub(super) fn dof_mismatch(
     search: &Search<'_, '_>,
     case: Case<'_>,
     (data_hypothesis, changes): (&DataHypothesis, &[Edit]),
-    moduli: &[(Option<usize>, Vec<Moduli>)],
+    of_sensors: &[(usize, Vec<Moduli>)],
+    (swept, loads): (&[Moduli], &[LoadScan]),
 ) -> Result<(Vec<Tried>, Work), OutsideTable> {
     let experiment = case.experiment;
     let sensors = experiment.sensors.len();
@@ -54,13 +56,14 @@ pub(super) fn dof_mismatch(
     let rows = Rows { search, experiment, data_hypothesis };
     // What is at which of the candidates' rows: (sensor, or none for the load, row, moduli).
     let mut wanted: Vec<(Option<usize>, usize, Moduli)> = Vec::new();
-    for (place, moduli) in moduli {
-        let best = match (place, driven_row(experiment)) {
-            (Some(m), _) => best_rows(&rows, &[*m], What::Sensor, moduli, experiment.sensors[*m].row),
-            (None, Some(row)) => best_rows(&rows, &all, What::Load, moduli, row),
-            (None, None) => Vec::new(),
-        };
-        wanted.extend(best.into_iter().map(|(row, moduli)| (*place, row, moduli)));
+    for (m, moduli) in of_sensors {
+        let scores = map(search.for_each, moduli.len(), |l| rows.scan_sensor(*m, &moduli[l]));
+        let best = best_rows(&scores.iter().collect::<Vec<_>>(), moduli, experiment.sensors[*m].row);
+        wanted.extend(best.into_iter().map(|(row, moduli)| (Some(*m), row, moduli)));
+    }
+    if let Some(own) = driven_row(experiment) {
+        let scores: Vec<&[Vec<f64>; 2]> = loads.iter().map(|scan| &scan.scores).collect();
+        wanted.extend(best_rows(&scores, swept, own).into_iter().map(|(row, moduli)| (None, row, moduli)));
     }
     let places: Vec<Sensor> = wanted
         .iter()
@@ -74,8 +77,7 @@ pub(super) fn dof_mismatch(
             let (sensors, columns, what) = match *m {
                 Some(m) => (vec![m], vec![there], DofMismatch::Response(*row)),
                 None => {
-                    let drive = Drive::Sensor(there);
-                    let columns = all.iter().map(|&m| responses.add(m, drive, rows.force())).collect();
+                    let columns = driven_at(there, 0..sensors, experiment, &mut responses);
                     (all.clone(), columns, DofMismatch::Load(*row))
                 }
             };
@@ -138,7 +140,7 @@ pub(super) fn with_places<T>(
     let all = (0..wider.sensors.len()).collect();
     let parametrization = (parametrization, about);
     let responses = Responses::new(problem, &subspace, all, parametrization, frequency_hz, search.for_each);
-    Ok(responses.map(|responses| (found(responses), Subspace::work(&subspace))))
+    Ok(responses.map(|responses| (found(responses), subspace.work())))
 }
 
 /// Where a model is trained that serves some moduli and what is near by: at most [`MAX_TRAINED_MODULI`] of them, and to either side.
@@ -156,28 +158,11 @@ fn near_candidates(parametrization: &Parametrization, candidates: &[&Moduli]) ->
     apart.iter().flat_map(sides).collect()
 }
 
-/// The rows that explain some sensors best: as their own, or (`is_load`) as that of the load.
+/// The rows of least scores, better than one's own, each with the moduli that suit it best.
 ///
-/// Each comes with the moduli that suit it best. They are the best by magnitude and phase, and the best by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
-fn best_rows(
-    of: &Rows<'_, '_>,
-    sensors: &[usize],
-    what: What,
-    moduli: &[Moduli],
-    own: usize,
-) -> Vec<(usize, Moduli)> {
-    let rows = of.experiment.load.len();
-    let scores = map(of.search.for_each, moduli.len(), |l| {
-        let mut scores = [vec![0.0; rows], vec![0.0; rows]];
-        for &m in sensors {
-            let rests = of.rests(m, what, &moduli[l]);
-            for (sums, own) in scores.iter_mut().zip([misfits(&rests, rows), misfits_of_shape(&rests, rows)])
-            {
-                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
-            }
-        }
-        scores
-    });
+/// They are the best by magnitude and phase, and the best by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
+fn best_rows(scores: &[&[Vec<f64>; 2]], moduli: &[Moduli], own: usize) -> Vec<(usize, Moduli)> {
+    let rows = scores.first().map_or(0, |scores| scores[0].len());
     let mut found: Vec<(usize, Moduli)> = Vec::new();
     for kind in 0..2 {
         let (least, which) = least_of_all(rows, scores.iter().map(|scores| &scores[kind]));

@@ -9,10 +9,10 @@ use super::mesh;
 use super::moduli::{Moduli, Parametrization};
 use super::responses::{Responses, over_the_box, trained};
 use super::row_pairs::row_pairs;
-use super::rows::sweep;
+use super::rows::{LoadScan, Rows, driven_row, sweep};
 use super::search::{Fitted, Grid, Search, Written};
 use crate::c64;
-use crate::for_each::ForEach;
+use crate::for_each::{ForEach, map};
 use crate::identify::{Options, Problem};
 use crate::material::OutsideTable;
 use crate::model::Experiment;
@@ -148,8 +148,8 @@ pub(super) fn look<T>(
         work: Work::default(),
     };
     let values = picked.iter().map(|&i| written(problem, measured, i)).collect();
-    let written = Written(values, picked.iter().map(|&i| noise(measured, i)).collect());
-    if written.0.iter().flatten().flatten().count() < MIN_VALUES {
+    let written = Written { values, noise: picked.iter().map(|&i| noise(measured, i)).collect() };
+    if written.values.iter().flatten().flatten().count() < MIN_VALUES {
         diagnosis.not_judged = Some(NotJudged::FewValues);
         return Ok((diagnosis, None));
     }
@@ -226,6 +226,9 @@ pub(super) fn look<T>(
     Ok((diagnosis, own))
 }
 
+/// Moduli, and how badly every row suits the load with each of them.
+type Swept = (Vec<Moduli>, Vec<LoadScan>);
+
 /// What is looked at.
 struct Look<'x> {
     problem: &'x Problem<'x>,
@@ -268,15 +271,15 @@ impl Look<'_> {
             let is_likely = |one: &&Explanation| as_given.nats - one.nats >= explanation::FINDING_NATS;
             let singles = tried.iter().filter(is_single).filter(is_likely);
             let likeliest = singles.min_by(|a, b| a.nats.total_cmp(&b.nats));
-            let beside: Vec<&Explanation> = std::iter::once(&as_given).chain(likeliest).collect();
-            let mut rows = Vec::new();
-            for beside in beside {
-                rows.extend(self.rows(&search, &grid, beside)?);
+            let swept = self.swept(&search, &as_given);
+            let mut rows = self.rows(&search, &grid, &as_given, &swept)?;
+            if let Some(beside) = likeliest {
+                rows.extend(self.rows(&search, &grid, beside, &self.swept(&search, beside))?);
             }
             tried.extend(rows.into_iter().filter(|one| explanation::is_large(&search, one)));
-        }
-        if left(&tried, Fitted::worst) > of_rows {
-            tried.extend(self.row_pairs(&search, &as_given)?);
+            if left(&tried, Fitted::worst) > of_rows {
+                tried.extend(self.row_pairs(&search, &as_given, &swept)?);
+            }
         }
         if self.depth == Depth::Quick {
             return Ok((as_given, tried));
@@ -302,13 +305,26 @@ impl Look<'_> {
         search: &Search<'_, '_>,
         grid: &Grid,
         beside: &Explanation,
+        (moduli, loads): &Swept,
     ) -> Result<Vec<Explanation>, OutsideTable> {
-        let moduli = self.moduli_of_other_rows(search, grid, beside);
+        let of_sensors = self.moduli_of_other_rows(search, grid, beside, moduli);
         let hypothesis = &beside.data_hypothesis;
         let seconds = if beside.faults() + 1 < MAX_FAULTS { hypothesis.edits() } else { Vec::new() };
-        let (rows, work) = dof_mismatch(search, self.case(), (hypothesis, &seconds), &moduli)?;
+        let (rows, work) =
+            dof_mismatch(search, self.case(), (hypothesis, &seconds), &of_sensors, (moduli, loads))?;
         self.spent(work);
         Ok(self.explanations_by_rows(beside, &rows))
+    }
+
+    /// How badly every row suits the load, with moduli of the whole box.
+    fn swept(&self, search: &Search<'_, '_>, beside: &Explanation) -> Swept {
+        let (experiment, data_hypothesis) = (self.measured.experiment, &beside.data_hypothesis);
+        let moduli = sweep(search.responses, &beside.fitted.moduli);
+        let rows = Rows { search, experiment, data_hypothesis };
+        // A load on several rows is not searched.
+        let count = if driven_row(experiment).is_some() { moduli.len() } else { 0 };
+        let loads = map(self.for_each, count, |l| rows.scan_load(&moduli[l]));
+        (moduli, loads)
     }
 
     /// Two other rows at once.
@@ -316,9 +332,9 @@ impl Look<'_> {
         &self,
         search: &Search<'_, '_>,
         as_given: &Explanation,
+        (moduli, loads): &Swept,
     ) -> Result<Vec<Explanation>, OutsideTable> {
-        let moduli = sweep(search.responses, &as_given.fitted.moduli);
-        let (rows, work) = row_pairs(search, self.case(), &as_given.data_hypothesis, &moduli)?;
+        let (rows, work) = row_pairs(search, self.case(), &as_given.data_hypothesis, (moduli, loads))?;
         self.spent(work);
         Ok(self.explanations_by_rows(as_given, &rows))
     }
@@ -361,7 +377,7 @@ impl Look<'_> {
             let alone = as_given.and(Elsewhere { fault: fault.clone(), sensors: self.all(), cost }, fitted);
             let mut tried = explanation::single_changes(search, &grid, &alone);
             if is_everything || alone.fitted.misfit.sigma < as_given.fitted.misfit.sigma {
-                tried.extend(self.rows(search, &grid, &alone).ok()?);
+                tried.extend(self.rows(search, &grid, &alone, &self.swept(search, &alone)).ok()?);
             }
             tried.push(alone);
             tried.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(search, one));
@@ -419,30 +435,27 @@ impl Look<'_> {
         found(&Search { responses: &there, written: self.written, for_each: self.for_each })
     }
 
-    /// Moduli with which rows are compared, for each sensor that agrees least and for the load (`None`): those of the other sensors, and all of the box.
+    /// Moduli with which rows are compared, for each sensor that agrees least: those of the other sensors, or all of the box.
     fn moduli_of_other_rows(
         &self,
         search: &Search<'_, '_>,
         grid: &Grid,
         beside: &Explanation,
-    ) -> Vec<(Option<usize>, Vec<Moduli>)> {
-        let all = sweep(search.responses, &beside.fitted.moduli);
+        all: &[Moduli],
+    ) -> Vec<(usize, Vec<Moduli>)> {
         let hypothesis = &beside.data_hypothesis;
         let mut suspects: Vec<usize> = (0..hypothesis.sensors()).collect();
         suspects.sort_by(|&a, &b| beside.fitted.own[b].total_cmp(&beside.fitted.own[a]));
         suspects.truncate(MAX_SUSPECTS);
         let without = |m: usize| {
             if hypothesis.sensors() == 1 {
-                return all.clone();
+                return all.to_vec();
             }
             let others = search.written.without(m);
             let known = Search { written: &others, ..*search }.fit(hypothesis, grid, &[]).moduli;
             vec![known, beside.fitted.moduli.clone()]
         };
-        let mut moduli: Vec<(Option<usize>, Vec<Moduli>)> =
-            suspects.into_iter().map(|m| (Some(m), without(m))).collect();
-        moduli.push((None, all));
-        moduli
+        suspects.into_iter().map(|m| (m, without(m))).collect()
     }
 
     /// Findings where the data are certain of them, what else would explain the data, or what they do not decide between.

@@ -9,13 +9,12 @@
 use super::data_hypothesis::{Change, DataHypothesis, DofMismatch, Edit};
 use super::dof_mismatch::{Case, MAX_PAIRS, Tried, least_of_all, starts, with_places};
 use super::moduli::Moduli;
-use super::rows::{MIN_ROUGH_GAIN, Rows, What, best, driven_row};
+use super::rows::{LoadScan, MIN_ROUGH_GAIN, Rows, What, best, driven_at, driven_row};
 use super::search::Search;
 use crate::for_each::map;
 use crate::material::OutsideTable;
 use crate::model::Sensor;
 use crate::response::Work;
-use crate::subspace::Drive;
 
 /// Sensors that are left out, each in turn, for the load's row: those without which the others agree best.
 const MAX_LEFT_OUT: usize = 2;
@@ -44,7 +43,7 @@ pub(super) fn row_pairs(
     search: &Search<'_, '_>,
     case: Case<'_>,
     data_hypothesis: &DataHypothesis,
-    moduli: &[Moduli],
+    (moduli, loads): (&[Moduli], &[LoadScan]),
 ) -> Result<(Vec<Tried>, Work), OutsideTable> {
     let sensors = case.experiment.sensors.len();
     if sensors < 2 {
@@ -54,7 +53,7 @@ pub(super) fn row_pairs(
     let mut pairs = pairs_of_sensors(&rows, moduli);
     let mut work = Work::default();
     if let Some(own) = driven_row(case.experiment) {
-        let loads = loads_without_a_sensor(&rows, moduli, own);
+        let loads = loads_without_a_sensor((moduli, loads), sensors, own);
         if let Some((of_load, spent)) = pairs_of_load(search, case, data_hypothesis, &loads)? {
             pairs.extend(of_load);
             work += spent;
@@ -83,8 +82,7 @@ pub(super) fn row_pairs(
             let mut columns: Vec<usize> = (0..sensors).collect();
             pair.sensors.iter().zip(there).for_each(|(&(m, _), &there)| columns[m] = there);
             if let Some(load) = load {
-                let drive = Drive::Sensor(*load);
-                columns = columns.into_iter().map(|at| responses.add(at, drive, rows.force())).collect();
+                columns = driven_at(*load, columns, case.experiment, &mut responses);
             }
             let edit = Edit { change: Change::Column(columns), sensors: (0..sensors).collect() };
             hypotheses.push(data_hypothesis.with(&edit));
@@ -117,8 +115,8 @@ fn pairs_of_sensors(rows: &Rows<'_, '_>, moduli: &[Moduli]) -> Vec<Pair> {
         let mut left = 0.0;
         // What each gains, and its rows.
         let mut gains: Vec<(f64, usize, Vec<usize>)> = Vec::with_capacity(sensors.len());
-        for (m, sensor) in sensors.iter().enumerate() {
-            let misfits = rows.misfits(m, What::Sensor, &moduli[l]);
+        let misfits = rows.misfits_of_sensors(&moduli[l]);
+        for (m, (sensor, misfits)) in sensors.iter().zip(misfits).enumerate() {
             let best = best(&misfits, sensor.row, MAX_SENSOR_ROWS);
             left += misfits[sensor.row];
             gains.push((best.first().map_or(0.0, |&row| misfits[sensor.row] - misfits[row]), m, best));
@@ -150,30 +148,21 @@ fn pairs_of_sensors(rows: &Rows<'_, '_>, moduli: &[Moduli]) -> Vec<Pair> {
 type LoadRow = (usize, usize, Moduli);
 
 /// The rows of the load that suit all sensors but the one that suits worst.
-fn loads_without_a_sensor(rows: &Rows<'_, '_>, moduli: &[Moduli], own: usize) -> Vec<LoadRow> {
-    let (dim, sensors) = (rows.experiment.load.len(), rows.experiment.sensors.len());
-    // What all but the worst leave, and which is the worst.
-    let scores = map(rows.search.for_each, moduli.len(), |l| {
-        let mut sum = vec![0.0; dim];
-        let mut worst = vec![(f64::NEG_INFINITY, 0); dim];
-        for m in 0..sensors {
-            for (row, misfit) in rows.misfits(m, What::Load, &moduli[l]).into_iter().enumerate() {
-                sum[row] += misfit;
-                if misfit > worst[row].0 {
-                    worst[row] = (misfit, m);
-                }
-            }
-        }
-        let left: Vec<(f64, usize)> =
-            sum.into_iter().zip(worst).map(|(sum, (misfit, m))| (sum - misfit, m)).collect();
-        left
-    });
+fn loads_without_a_sensor(
+    (moduli, loads): (&[Moduli], &[LoadScan]),
+    sensors: usize,
+    own: usize,
+) -> Vec<LoadRow> {
+    let dim = loads.first().map_or(0, |scan| scan.worst.len());
     let mut found: Vec<(f64, Vec<LoadRow>)> = Vec::new();
     for m in 0..sensors {
-        let of_m = |left: &Vec<(f64, usize)>| -> Vec<f64> {
-            left.iter().map(|&(left, worst)| if worst == m { left } else { f64::INFINITY }).collect()
+        let of_m = |scan: &LoadScan| -> Vec<f64> {
+            let left = |(sum, &(misfit, worst)): (&f64, &(f64, usize))| {
+                if worst == m { sum - misfit } else { f64::INFINITY }
+            };
+            scan.scores[0].iter().zip(&scan.worst).map(left).collect()
         };
-        let of_m: Vec<Vec<f64>> = scores.iter().map(of_m).collect();
+        let of_m: Vec<Vec<f64>> = loads.iter().map(of_m).collect();
         let (least, which) = least_of_all(dim, of_m.iter());
         let best = best(&least, own, MAX_LOAD_ROWS);
         if let Some(&first) = best.first() {
@@ -196,11 +185,9 @@ fn pairs_of_load(
     let places: Vec<Sensor> = loads.iter().map(|&(_, row, _)| Sensor { row, sign: 1.0 }).collect();
     let near: Vec<&Moduli> = loads.iter().map(|(.., moduli)| moduli).collect();
     with_places(search, case, &places, &near, &mut |mut responses| {
-        let force = Rows { search, experiment: case.experiment, data_hypothesis }.force();
         let mut hypotheses = Vec::with_capacity(loads.len());
         for k in 0..loads.len() {
-            let drive = Drive::Sensor(sensors + k);
-            let columns = (0..sensors).map(|m| responses.add(m, drive, force)).collect();
+            let columns = driven_at(sensors + k, 0..sensors, case.experiment, &mut responses);
             let edit = Edit { change: Change::Column(columns), sensors: (0..sensors).collect() };
             hypotheses.push(data_hypothesis.with(&edit));
         }

@@ -45,6 +45,22 @@ pub(super) fn driven_row(experiment: &Experiment) -> Option<usize> {
     driven.next().filter(|_| driven.next().is_none())
 }
 
+/// The force on the driven row.
+fn force(experiment: &Experiment) -> c64 {
+    driven_row(experiment).map_or(c64::default(), |row| experiment.load[row])
+}
+
+/// Columns of the responses with the force on another place, which is one of the sensors of the reduced model.
+pub(super) fn driven_at(
+    place: usize,
+    columns: impl IntoIterator<Item = usize>,
+    experiment: &Experiment,
+    responses: &mut Responses<'_>,
+) -> Vec<usize> {
+    let (drive, force) = (Drive::Sensor(place), force(experiment));
+    columns.into_iter().map(|at| responses.add(at, drive, force)).collect()
+}
+
 /// What every row is compared with.
 pub(super) struct Rows<'r, 'a> {
     pub(super) search: &'r Search<'r, 'a>,
@@ -64,47 +80,103 @@ pub(super) enum What {
 }
 
 impl Rows<'_, '_> {
-    /// The force on the driven row.
-    pub(super) fn force(&self) -> c64 {
-        self.experiment.load.iter().copied().find(|f| *f != c64::default()).unwrap_or_default()
+    /// x at every row where a sensor or the load may be, `[frequency][row]`; with the load as the case says it is the same for all sensors.
+    fn solutions(&self, m: usize, what: What, moduli: &Moduli) -> Vec<Vec<c64>> {
+        let responses = self.search.responses;
+        let drive = match what {
+            What::Sensor => Drive::Load,
+            What::SensorDrivenAt(place) => Drive::Sensor(place),
+            What::Load => Drive::Sensor(responses.sensors[m]),
+        };
+        responses.everywhere(drive, moduli, &self.picked())
     }
 
-    /// ln(measured/model) of a sensor with every row in turn, `[frequency][row]`, at some of the frequencies; smaller where its noise is known, as at [`ROW_SCALE`] beside it.
-    pub(super) fn rests(&self, m: usize, what: What, moduli: &Moduli) -> Vec<Vec<c64>> {
-        let responses = self.search.responses;
-        let Written(written, noise) = self.search.written;
-        let count = written.len().min(ROW_FREQUENCIES);
-        let picked = (0..count).map(|k| k * (written.len() - 1) / (count - 1).max(1));
-        let picked: Vec<(usize, c64)> = picked.filter_map(|i| Some((i, written[i][m]?))).collect();
+    /// The frequencies at which rows are looked at.
+    fn picked(&self) -> Vec<usize> {
+        let all = self.search.written.values.len();
+        let count = all.min(ROW_FREQUENCIES);
+        (0..count).map(|k| k * (all - 1) / (count - 1).max(1)).collect()
+    }
+
+    /// ln(measured/model) of a sensor with every row in turn, `[frequency][row]`; smaller where its noise is known, as at [`ROW_SCALE`] beside it.
+    fn rests(&self, m: usize, what: What, solutions: &[Vec<c64>]) -> Vec<Vec<c64>> {
+        let Written { values, noise } = self.search.written;
         let sign = c64::new(self.experiment.sensors[m].sign, 0.0);
-        let (drive, by) = match what {
-            What::Sensor => (Drive::Load, sign),
-            What::SensorDrivenAt(place) => (Drive::Sensor(place), sign * self.force()),
-            What::Load => (Drive::Sensor(responses.sensors[m]), self.force()),
+        let by = match what {
+            What::Sensor => sign,
+            What::SensorDrivenAt(_) => sign * force(self.experiment),
+            What::Load => force(self.experiment),
         };
-        let at: Vec<usize> = picked.iter().map(|&(i, _)| i).collect();
-        let mut x = responses.everywhere(drive, moduli, &at);
-        for (x, &(i, value)) in x.iter_mut().zip(&picked) {
-            let read = self.data_hypothesis.reading(m, responses.frequency_hz[i], value).receptance(0.0, 0.0);
-            let rest = |x: c64| beside_noise(wrapped(read - (by * x).ln()), noise[i][m], ROW_SCALE);
-            x.iter_mut().for_each(|x| *x = rest(*x));
-        }
-        x
+        let of = |(i, x): (usize, &Vec<c64>)| -> Option<Vec<c64>> {
+            let value = values[i][m]?;
+            let frequency_hz = self.search.responses.frequency_hz[i];
+            let read = self.data_hypothesis.reading(m, frequency_hz, value).receptance(0.0, 0.0);
+            let rest = |x: &c64| beside_noise(wrapped(read - (by * x).ln()), noise[i][m], ROW_SCALE);
+            Some(x.iter().map(rest).collect())
+        };
+        self.picked().into_iter().zip(solutions).filter_map(of).collect()
     }
 
     /// How badly each row suits a sensor, by magnitude and phase.
     pub(super) fn misfits(&self, m: usize, what: What, moduli: &Moduli) -> Vec<f64> {
-        misfits(&self.rests(m, what, moduli), self.search.responses.rows)
+        misfits(&self.rests(m, what, &self.solutions(m, what, moduli)), self.rows())
+    }
+
+    /// The same of every sensor with the load as the case says.
+    pub(super) fn misfits_of_sensors(&self, moduli: &Moduli) -> Vec<Vec<f64>> {
+        let solutions = self.solutions(0, What::Sensor, moduli);
+        let of = |m| misfits(&self.rests(m, What::Sensor, &solutions), self.rows());
+        (0..self.experiment.sensors.len()).map(of).collect()
+    }
+
+    /// How badly each row suits a sensor with the load as the case says, by magnitude and phase and by the shape of the magnitude.
+    pub(super) fn scan_sensor(&self, m: usize, moduli: &Moduli) -> [Vec<f64>; 2] {
+        let rests = self.rests(m, What::Sensor, &self.solutions(m, What::Sensor, moduli));
+        [misfits(&rests, self.rows()), misfits_of_shape(&rests, self.rows())]
+    }
+
+    /// How badly each row suits the load.
+    pub(super) fn scan_load(&self, moduli: &Moduli) -> LoadScan {
+        let rows = self.rows();
+        let mut scan = LoadScan {
+            scores: [vec![0.0; rows], vec![0.0; rows]],
+            worst: vec![(f64::NEG_INFINITY, 0); rows],
+        };
+        for m in 0..self.experiment.sensors.len() {
+            let rests = self.rests(m, What::Load, &self.solutions(m, What::Load, moduli));
+            let own = [misfits(&rests, rows), misfits_of_shape(&rests, rows)];
+            for (worst, &misfit) in scan.worst.iter_mut().zip(&own[0]) {
+                if misfit > worst.0 {
+                    *worst = (misfit, m);
+                }
+            }
+            for (sums, own) in scan.scores.iter_mut().zip(own) {
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+            }
+        }
+        scan
+    }
+
+    fn rows(&self) -> usize {
+        self.search.responses.rows
     }
 }
 
+/// How badly each row suits the load, with some moduli.
+pub(super) struct LoadScan {
+    /// Of all sensors, by magnitude and phase and by the shape of the magnitude.
+    pub(super) scores: [Vec<f64>; 2],
+    /// What the sensor that it suits worst leaves by magnitude and phase, and which it is.
+    pub(super) worst: Vec<(f64, usize)>,
+}
+
 /// The misfit of each row at [`ROW_SCALE`], by magnitude and phase.
-pub(super) fn misfits(rests: &[Vec<c64>], rows: usize) -> Vec<f64> {
+fn misfits(rests: &[Vec<c64>], rows: usize) -> Vec<f64> {
     (0..rows).map(|row| misfit_at(rests.iter().map(|at| at[row]), ROW_SCALE)).collect()
 }
 
 /// The same by the shape of the magnitude alone, which a factor, a sign, a conjugate or a delay leaves as it is.
-pub(super) fn misfits_of_shape(rests: &[Vec<c64>], rows: usize) -> Vec<f64> {
+fn misfits_of_shape(rests: &[Vec<c64>], rows: usize) -> Vec<f64> {
     let values = rests.len() as f64;
     let of_row = |row: usize| {
         let (sum, squares) = rests.iter().fold((0.0, 0.0), |(sum, squares), at| {
@@ -119,8 +191,9 @@ pub(super) fn misfits_of_shape(rests: &[Vec<c64>], rows: usize) -> Vec<f64> {
 
 /// The rows of least score that are better than one's own.
 pub(super) fn best(scores: &[f64], own: usize, most: usize) -> Vec<usize> {
-    let mut rows: Vec<usize> =
-        (0..scores.len()).filter(|&row| row != own && scores[row] < scores[own] - MIN_ROUGH_GAIN).collect();
+    let Some(&of_own) = scores.get(own) else { return Vec::new() };
+    let is_better = |row: &usize| *row != own && scores[*row] < of_own - MIN_ROUGH_GAIN;
+    let mut rows: Vec<usize> = (0..scores.len()).filter(is_better).collect();
     rows.sort_by(|&a, &b| scores[a].total_cmp(&scores[b]));
     rows.truncate(most);
     rows

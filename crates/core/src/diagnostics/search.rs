@@ -52,9 +52,13 @@ const NOMINAL_LN_STD: f64 = 0.7;
 /// Step of a coordinate for the slope of how far it is beyond its bounds.
 const DIFFERENCE_STEP: f64 = 1e-6;
 
-/// Values as they were written: ln of the complex value at `[frequency][sensor]`, `None` where it is zero or no number. Then the variance that their noise gives the
-/// real and the imaginary part of that logarithm, zero where it is not known.
-pub(super) struct Written(pub(super) Vec<Vec<Option<c64>>>, pub(super) Vec<Vec<f64>>);
+/// Values as they were written, `[frequency][sensor]`.
+pub(super) struct Written {
+    /// ln of the complex value, `None` where it is zero or no number.
+    pub(super) values: Vec<Vec<Option<c64>>>,
+    /// The variance that noise gives the real and the imaginary part of that logarithm, zero where it is not known.
+    pub(super) noise: Vec<Vec<f64>>,
+}
 
 impl Written {
     /// All values but those of one sensor.
@@ -62,7 +66,7 @@ impl Written {
         let blanked = |values: &Vec<Option<c64>>| {
             values.iter().enumerate().map(|(m, value)| value.filter(|_| m != sensor)).collect()
         };
-        Self(self.0.iter().map(blanked).collect(), self.1.clone())
+        Self { values: self.values.iter().map(blanked).collect(), noise: self.noise.clone() }
     }
 }
 
@@ -159,7 +163,7 @@ impl Search<'_, '_> {
         }));
         let columns: Vec<usize> = (0..sensors).collect();
         let ln = map(self.for_each, moduli.len(), |p| {
-            (0..self.written.0.len()).flat_map(|i| self.responses.ln(&moduli[p], i, &columns)).collect()
+            (0..self.written.values.len()).flat_map(|i| self.responses.ln(&moduli[p], i, &columns)).collect()
         });
         Grid { moduli, ln }
     }
@@ -169,14 +173,14 @@ impl Search<'_, '_> {
         let sensors = data_hypothesis.sensors();
         let one = |at: usize| {
             let (i, m) = (at / sensors, at % sensors);
-            let written = self.written.0[i][m]?;
+            let written = self.written.values[i][m]?;
             Some(Compared {
                 at,
                 measured: data_hypothesis.reading(m, self.responses.frequency_hz[i], written),
-                noise: self.written.1[i][m],
+                noise: self.written.noise[i][m],
             })
         };
-        (0..self.written.0.len() * sensors).filter_map(one).collect()
+        (0..self.written.values.len() * sensors).filter_map(one).collect()
     }
 
     /// The likeliest moduli from the best of the grid and from starts that are known.
@@ -288,7 +292,7 @@ impl Search<'_, '_> {
 
     fn ln(&self, data_hypothesis: &DataHypothesis, moduli: &Moduli) -> Vec<c64> {
         let at = |i| self.responses.ln(moduli, i, &data_hypothesis.column);
-        (0..self.written.0.len()).flat_map(at).collect()
+        (0..self.written.values.len()).flat_map(at).collect()
     }
 
     /// ω at the top of the band.
@@ -373,9 +377,9 @@ impl Search<'_, '_> {
         let parametrization = &self.responses.parametrization;
         let sensors = data_hypothesis.sensors();
         let of_moduli = parametrization.coordinates(&moduli).len();
-        let mut ln = Vec::with_capacity(self.written.0.len() * sensors);
+        let mut ln = Vec::with_capacity(self.written.values.len() * sensors);
         let mut of_ln: Vec<Vec<c64>> = vec![Vec::with_capacity(ln.capacity()); of_moduli];
-        for i in 0..self.written.0.len() {
+        for i in 0..self.written.values.len() {
             let (own, by_value) = self.responses.ln_with_slopes(&moduli, i, &data_hypothesis.column);
             for (of_ln, by) in of_ln.iter_mut().zip(parametrization.slopes(&moduli, i)) {
                 of_ln.extend(

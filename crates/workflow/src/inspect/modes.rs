@@ -1,8 +1,7 @@
 //! The first natural frequencies of K and M: a wrong unit of either shows at once.
 
 use crate::error::{InputError, Place};
-use crate::load::{Member, load_one, one_order, symmetric_matrix};
-use frfit_formats::{CoordinateMatrix, Entries};
+use crate::load::{Member, empty_rows, load_one, one_order, symmetric_matrix};
 use frfit_linalg::modes::{ModesError, lowest};
 use frfit_linalg::solve::Breakdown;
 use serde_json::{Value, json};
@@ -35,14 +34,14 @@ pub fn natural_frequencies(k: &Path, m: &Path, count: usize) -> Result<Vec<f64>,
         let found = format!("{entries} entries in both for {} rows", stiffness.nrows);
         return Err(InputError::at(&Place::file(k), "a nonzero in every row of K or M", found));
     }
-    let empty = EmptyRows::of([&stiffness, &mass]);
     let symmetric = |path, matrix| symmetric_matrix(matrix).map_err(|error| InputError::in_file(path, error));
-    let (stiffness, mass) = (symmetric(k, &stiffness)?, symmetric(m, &mass)?);
-    let modes = lowest(&stiffness, &mass, count).map_err(|error| {
+    let (of_k, of_m) = (symmetric(k, &stiffness)?, symmetric(m, &mass)?);
+    let modes = lowest(&of_k, &of_m, count).map_err(|error| {
         if let ModesError::Breakdown(Breakdown::Singular { .. }) = error {
-            return InputError::at(&Place::file(k), WHOLE, empty.in_words());
+            let empty = empty_rows(stiffness.nrows, [&stiffness, &mass]);
+            return InputError::at(&Place::file(k), WHOLE, without_values(&empty));
         }
-        let complex_mass = error == ModesError::Complex && stiffness.real_values().is_some();
+        let complex_mass = error == ModesError::Complex && of_k.real_values().is_some();
         let place = Place::file(if complex_mass { m } else { k });
         InputError::at(&place, "K and M with natural frequencies", error.to_string())
     })?;
@@ -53,43 +52,12 @@ pub fn natural_frequencies(k: &Path, m: &Path, count: usize) -> Result<Vec<f64>,
 const WHOLE: &str = "K and M of the whole model, in which each degree of freedom has a stiffness or a mass; where they \
                      are matrices of a part, name all matrices in a case file and run `frfit modes` on it";
 
-/// Rows in which neither K nor M has a value that is not zero.
-struct EmptyRows {
-    count: usize,
-    /// From 0.
-    first: Option<usize>,
-}
-
-impl EmptyRows {
-    fn of(matrices: [&CoordinateMatrix; 2]) -> Self {
-        let mut has_value = vec![false; matrices[0].nrows];
-        for matrix in matrices {
-            let is_zero = |at: usize| match &matrix.entries {
-                Entries::Pattern => false,
-                Entries::Real(values) => values[at] == 0.0,
-                Entries::Complex(values) => values[at].norm() == 0.0,
-            };
-            let positions = matrix.rows.iter().zip(&matrix.cols).enumerate();
-            for (_, (&row, &column)) in positions.filter(|&(at, _)| !is_zero(at)) {
-                for place in [row, column] {
-                    if let Some(found) = has_value.get_mut(place) {
-                        *found = true;
-                    }
-                }
-            }
-        }
-        let first = has_value.iter().position(|found| !found);
-        Self { count: has_value.iter().filter(|found| !**found).count(), first }
-    }
-
-    fn in_words(&self) -> String {
-        match (self.count, self.first) {
-            (1, Some(row)) => format!("no value in row {} of both", row + 1),
-            (count, Some(row)) => format!("no value in {count} rows of both (the first is {})", row + 1),
-            (_, None) => {
-                "a motion that has neither stiffness nor mass: K + s M is singular for every s".into()
-            }
-        }
+/// Why K + s M is singular for every s, by the rows in which neither has a value that is not zero.
+fn without_values(empty: &[usize]) -> String {
+    match empty {
+        [row] => format!("no value in row {} of both", row + 1),
+        [first, ..] => format!("no value in {} rows of both (the first is {})", empty.len(), first + 1),
+        [] => "a motion that has neither stiffness nor mass: K + s M is singular for every s".into(),
     }
 }
 

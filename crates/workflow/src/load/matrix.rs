@@ -28,6 +28,28 @@ pub fn check_symmetric(matrix: &CoordinateMatrix) -> Result<(), FormatError> {
     }
 }
 
+/// Rows (from 0) in which no matrix has a value that is not zero: of square matrices with so many rows.
+pub(crate) fn empty_rows<'m>(
+    rows: usize,
+    matrices: impl IntoIterator<Item = &'m CoordinateMatrix>,
+) -> Vec<usize> {
+    let mut empty = vec![true; rows];
+    for matrix in matrices {
+        let is_zero = |k: usize| match &matrix.entries {
+            Entries::Pattern => false,
+            Entries::Real(values) => values[k] == 0.0,
+            Entries::Complex(values) => values[k].norm() == 0.0,
+        };
+        for (k, (&row, &col)) in matrix.rows.iter().zip(&matrix.cols).enumerate() {
+            if !is_zero(k) {
+                empty[row] = false;
+                empty[col] = false;
+            }
+        }
+    }
+    (0..rows).filter(|&row| empty[row]).collect()
+}
+
 /// Why Aᵀ is not A, in words; `None` where it is.
 pub(crate) fn asymmetry(matrix: &CoordinateMatrix) -> Option<String> {
     match matrix.symmetry {

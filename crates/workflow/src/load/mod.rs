@@ -39,6 +39,7 @@ pub use identify::{Check, IdentifyCase};
 pub(crate) use labels::files_beside;
 pub(crate) use labels::{Member, load_one, matrices_of, one_order};
 pub use loaded::Case;
+pub(crate) use matrix::empty_rows;
 pub(crate) use matrix::{asymmetry, complex};
 pub use matrix::{check_symmetric, symmetric_matrix};
 pub use measurement::SensorInfo;

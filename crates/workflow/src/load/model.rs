@@ -4,7 +4,7 @@ use super::dimension::{PartOf, polynomial};
 use super::factor::law;
 use super::files::{Files, NamedFile};
 use super::labels::{Member, Order, names_beside, one_order, read_names, sibling};
-use super::matrix::{check_symmetric, symmetric_matrix};
+use super::matrix::{check_symmetric, empty_rows, symmetric_matrix};
 use super::solver;
 use crate::case::Located;
 use crate::case::{CaseFile, MatrixEntry};
@@ -12,8 +12,7 @@ use crate::error::InputError;
 use frfit::model::Role;
 use frfit::model::{DynamicStiffness, ModelError, Term};
 use frfit_formats::{
-    CoordinateMatrix, DofLabel, Entries, FormatError, Labels, NamedMatrix, choose_matrix, detect,
-    read_matrices,
+    CoordinateMatrix, DofLabel, FormatError, Labels, NamedMatrix, choose_matrix, detect, read_matrices,
 };
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
 use std::borrow::Cow;
@@ -208,29 +207,12 @@ fn every_row_has_an_entry(
     if rows / 2 > entries {
         return refuse(format!("{entries} in all"));
     }
-    let mut empty = vec![true; rows];
-    for (_, matrix) in read {
-        for (k, (&row, &col)) in matrix.rows.iter().zip(&matrix.cols).enumerate() {
-            if !is_zero(&matrix.entries, k) {
-                empty[row] = false;
-                empty[col] = false;
-            }
-        }
-    }
-    match empty.iter().position(|&empty| empty) {
-        Some(row) => {
+    match empty_rows(rows, read.iter().map(|(_, matrix)| matrix.as_ref())).first() {
+        Some(&row) => {
             let name = labels.get(row).map_or(String::new(), |label| format!(" ({label})"));
             refuse(format!("none in row {}{name}", row + 1))
         }
         None => Ok(()),
-    }
-}
-
-fn is_zero(entries: &Entries, k: usize) -> bool {
-    match entries {
-        Entries::Pattern => false,
-        Entries::Real(values) => values[k] == 0.0,
-        Entries::Complex(values) => values[k].norm() == 0.0,
     }
 }
 

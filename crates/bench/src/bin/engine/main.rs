@@ -59,8 +59,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     for count in 0..=ranks {
         let engine = (count > 0).then(|| Mumps::start(&launch(count))).transpose()?;
         let costs = [
-            of(&model, engine.as_ref(), &real, &mut own.0)?,
-            of(&model, engine.as_ref(), &complex, &mut own.1)?,
+            of(&model, engine.as_ref(), &real, &mut own.0, |factor| Some(factor.negative_eigenvalues()))?,
+            of(&model, engine.as_ref(), &complex, &mut own.1, |_| None)?,
         ];
         for (cost, matrix) in costs.iter().zip(["real", "complex"]) {
             table.push([
@@ -87,16 +87,14 @@ fn launch(ranks: usize) -> Launch {
     launch
 }
 
-/// One engine on one matrix, and its solutions beside the first engine's.
+/// One engine on one matrix, and its solutions beside the first engine's; `negative` counts eigenvalues where the matrix has a sign.
 fn of<T: HasSymbolic + Into<c64>>(
     model: &DynamicStiffness,
     engine: Option<&Mumps>,
     values: &[T],
     own: &mut Option<Vec<T>>,
-) -> Result<Cost, Box<dyn Error>>
-where
-    CheckedFactor<T>: Counted,
-{
+    negative: impl Fn(&CheckedFactor<T>) -> Option<usize>,
+) -> Result<Cost, Box<dyn Error>> {
     let pattern = model.analysis().pattern();
     let analysis: Analysis = match engine {
         Some(mumps) => mumps.analyse(pattern),
@@ -115,7 +113,8 @@ where
     let added = memory::peak().unwrap_or(0).saturating_sub(resident) as f64;
     let after = used()?;
     let seconds = |ranks: &[RankUsage]| ranks.iter().map(|rank| rank.cpu_s).sum::<f64>();
-    let mut x: Vec<T> = (0..COLUMNS * model.dim()).map(|k| unit::<T>(k, values)).collect();
+    // Some numbers of the matrix: right-hand sides of its size and of its kind.
+    let mut x: Vec<T> = (0..COLUMNS * model.dim()).map(|k| values[(k * 7919) % values.len()]).collect();
     let start = Instant::now();
     factor.solve(&mut x)?;
     let solve_wall = start.elapsed().as_secs_f64();
@@ -129,31 +128,9 @@ where
         factor_cpu: if engine.is_some() { seconds(&after) - seconds(&before) } else { of_process },
         solve_wall,
         peak_mb: after.iter().map(|rank| rank.peak_bytes).reduce(f64::max).unwrap_or(added) / 1e6,
-        negative: factor.negative(),
+        negative: negative(&factor),
         difference: difference / size,
     })
-}
-
-/// Some number of the matrix: right-hand sides of its size and of its kind.
-fn unit<T: Copy>(k: usize, values: &[T]) -> T {
-    values[(k * 7919) % values.len()]
-}
-
-/// Counts of eigenvalues, where a matrix has a sign.
-trait Counted {
-    fn negative(&self) -> Option<usize>;
-}
-
-impl Counted for CheckedFactor<f64> {
-    fn negative(&self) -> Option<usize> {
-        Some(self.negative_eigenvalues())
-    }
-}
-
-impl Counted for CheckedFactor<c64> {
-    fn negative(&self) -> Option<usize> {
-        None
-    }
 }
 
 /// Jobs of which the last rank is killed: how long until frfit knows.
@@ -175,9 +152,7 @@ fn killed(
             Instant::now()
         });
         let outcome = loop {
-            let solved = analysis
-                .factor(values)
-                .and_then(|factor| factor.solve(&mut vec![1.0; values.len()][..model.dim()]));
+            let solved = analysis.factor(values).and_then(|factor| factor.solve(&mut vec![1.0; model.dim()]));
             if let Err(breakdown) = solved {
                 break breakdown;
             }
