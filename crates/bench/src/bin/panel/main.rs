@@ -1,7 +1,7 @@
 //! A sandwich panel from its files to the modulus: `frfit identify` as a user runs it, over the size of the model.
 //!
-//! `panel [DOFS [FOLDER]]` leaves out models with more degrees of freedom (default: 310 000, some GB of memory and of disk); `panel 1100000` has the one of a
-//! million, which takes 16 GB. The cases are kept where there is a folder for them.
+//! `panel [[LEAST..]MOST [FOLDER]]` takes the models of so many degrees of freedom (default: up to 310000, some GB of memory and of disk); `panel 1000000..1100000`
+//! is the one of a million, `panel 2000000..2100000` that of two. The cases are kept where there is a folder for them.
 //!
 //! The sandwich of the example in bricks, skins and core in four layers of elements, 1000 frequencies, two sensors, on all cores. The measurement is made with a
 //! subspace of its own ([`frfit_bench::measurement::by_subspace`]) whose estimated error is given. Everything counts: reading the matrices,
@@ -44,14 +44,17 @@ struct Cost {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let limit = arguments.next().map_or(Ok(310_000), |dofs| dofs.parse())?;
+    let range = arguments.next().unwrap_or("310000".to_owned());
+    let (least, most) = range.split_once("..").unwrap_or(("0", &range));
+    let range = least.parse()?..=most.parse()?;
     let kept = arguments.next().map(PathBuf::from);
     let program = program()?;
     println!("From files to the modulus: frfit identify over the size of the model\n{}", machine());
     println!("{FREQUENCIES} frequencies; wall seconds of the whole program and of its stages\n");
     let mut costs = Vec::new();
-    for nx in LENGTHS.into_iter().filter(|nx| 15 * nx * (nx / 8 + 1) <= limit) {
-        eprintln!("{} degrees of freedom …", 15 * nx * (nx / 8 + 1));
+    let dofs = |nx: usize| 15 * nx * (nx / 8 + 1);
+    for nx in LENGTHS.into_iter().filter(|&nx| range.contains(&dofs(nx))) {
+        eprintln!("{} degrees of freedom …", dofs(nx));
         costs.push(cost(&program, nx, kept.as_deref())?);
     }
     println!("{}", table(&costs));
