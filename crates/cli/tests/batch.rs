@@ -212,6 +212,33 @@ fn a_reduced_model_belongs_to_its_matrices_load_and_sensors() {
     assert_eq!(checked, done(at, &["check", "s/case.toml"]));
 }
 
+/// The values of a measurement are not needed to train: the same file without them, and at other frequencies nearly the same subspace.
+#[test]
+fn a_model_is_trained_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(at, &["--quiet", "example", "sandwich", "s"]);
+    let case = fs::read_to_string(at.join("s/case.toml")).unwrap();
+    let unmeasured = case.replace("file = \"frf.uff\"\n", "");
+    let respond = "[respond]\nband_hz = [20.0, 1000.0]\npoints = 99\n";
+    fs::write(at.join("s/planned.toml"), &unmeasured).unwrap();
+    fs::write(at.join("s/same.toml"), format!("{unmeasured}\n{respond}")).unwrap();
+    for name in ["case", "planned", "same"] {
+        let (case, kept) = (format!("s/{name}.toml"), format!("{name}.frfit"));
+        done(at, &["--quiet", "train", &case, "--out", &kept]);
+    }
+    assert!(fs::read(at.join("case.frfit")).unwrap() == fs::read(at.join("same.frfit")).unwrap());
+    let identify = ["--json", "identify", "s/case.toml", "--out", "out", "--reduced", "planned.frfit"];
+    let found: Value = serde_json::from_str(&done(at, &identify)).unwrap();
+    assert_eq!(found["status"]["ok"], 99, "{found}");
+    // From nothing there are three, of more than a hundred solves.
+    let [factorisations, solves] =
+        ["factorisations", "solves"].map(|count| found["counts"][count].as_u64().unwrap());
+    assert!(factorisations <= 1 && solves <= 30, "{factorisations} {solves}");
+    let said = refused(at, &["identify", "s/planned.toml", "--out", "other"]);
+    assert!(said.contains("the key \"file\""), "{said}");
+}
+
 /// A batch that is killed loses the runs in flight and nothing else.
 #[cfg(unix)]
 #[test]

@@ -332,7 +332,7 @@ pub fn train_case(
     memory_bytes: Option<u64>,
     out: &Path,
 ) -> Result<TrainJob, JobError> {
-    let case = load(case_file, overrides, Purpose::Identify)?;
+    let case = load(case_file, overrides, Purpose::Train)?;
     check_file(out, &case.reads)?;
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::file(case_file), "something to identify", "none").into());

@@ -47,7 +47,7 @@ impl<'a> ReducedBand<'a> {
         self.subspace.as_ref().map(Subspace::kept)
     }
 
-    /// Trains over the box of the problem, where that was not done yet.
+    /// Trains over the box of the problem, where that was not done yet. The values of the FRFs are not used, only their frequencies.
     ///
     /// # Errors
     /// [`ProblemError`] for options that do not belong to the problem.

@@ -194,6 +194,7 @@ pub fn case_of_arrays(
     let given = Given {
         model: &model,
         measurements: &measurements,
+        respond: None,
         channels: (unknown, first),
         units: UnitSystem::Si,
         is_modulus: &|_| None,

@@ -2,7 +2,7 @@
 
 use super::measurement::{Curve, Measurement};
 use super::overrides::Overrides;
-use crate::case::{CaseFile, checked_band};
+use crate::case::{CaseFile, RespondEntry, checked_band};
 use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::frequency::{linear_hz, omega_rad_s};
@@ -12,6 +12,9 @@ use frfit_formats::FormatError;
 /// How far two measurements' frequencies may differ and be the same: well above the rounding of 12 digits, well below
 /// any resolution of an analyser.
 const SAME_FREQUENCY: f64 = 1e-9;
+
+/// Frequencies of a band that was not measured: a training looks at some of them, and at both ends.
+const UNMEASURED_FREQUENCIES: usize = 200;
 
 /// Standard deviations √E|δx|² of the measured receptances, `[frequency][sensor]`, as far as files and case give them.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +75,21 @@ pub(super) fn respond_hz(
         Some(curve) => frequencies(curve, overrides.band_hz.unwrap_or([0.0, f64::MAX]), &option),
         None => Ok(Vec::new()),
     }
+}
+
+/// A band without a measurement, for what needs its frequencies alone: those of a response in it, or equally spaced ones. All receptances are one.
+pub(super) fn unmeasured(respond: Option<&RespondEntry>, [low, high]: [f64; 2], sensors: usize) -> Band {
+    let asked = respond.map(|respond| {
+        let [first, last] = respond.band_hz.value;
+        linear_hz(first, last, respond.points)
+    });
+    let mut frequency_hz: Vec<f64> =
+        asked.unwrap_or_default().into_iter().filter(|f| (low..=high).contains(f)).collect();
+    if frequency_hz.is_empty() {
+        frequency_hz = linear_hz(low, high, UNMEASURED_FREQUENCIES);
+    }
+    let measured = vec![vec![c64::new(1.0, 0.0); sensors]; frequency_hz.len()];
+    Band { frequency_hz, not_common: 0, measured, noise: MeasuredNoise::Unknown }
 }
 
 /// All measurements at the frequencies of the band that all of them have; `decay_per_s` is that of their window.

@@ -1,6 +1,6 @@
 //! What is unknown, how to find it, and the measurement to find it from.
 
-use super::band::{MeasuredNoise, band};
+use super::band::{MeasuredNoise, band, unmeasured};
 use super::dimension::{PartOf, each_has_a_value};
 use super::factor::{covers, law};
 use super::files::Files;
@@ -9,7 +9,7 @@ use super::measurement::Measurement;
 use super::options::{invalid, options, overridden, reduction_of_band};
 use super::overrides::Overrides;
 use super::unknowns::{is_single, known_have_std, unknowns};
-use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, MatrixEntry};
+use crate::case::{Calibration, CaseFile, IdentifyEntry, Located, MatrixEntry, RespondEntry};
 use crate::error::{InputError, Place};
 use crate::units::{FactorUnit, UnitSystem};
 use frfit::c64;
@@ -130,6 +130,7 @@ pub(super) fn identify(
     let given = Given {
         model,
         measurements,
+        respond: case.respond.as_ref(),
         channels: channels_of(case),
         units: case.units,
         is_modulus: &is_modulus,
@@ -147,6 +148,8 @@ pub(super) fn identify(
 pub(super) struct Given<'a> {
     pub(super) model: &'a DynamicStiffness,
     pub(super) measurements: &'a [Measurement],
+    /// The frequencies of a response, which serve where nothing was measured.
+    pub(super) respond: Option<&'a RespondEntry>,
     /// What of each sensor's channel is unknown, and where that is first said.
     pub(super) channels: (Vec<ChannelUnknowns>, Option<Place>),
     pub(super) units: UnitSystem,
@@ -161,7 +164,7 @@ pub(super) fn put_together(
     mut options: Options,
     given: Given<'_>,
 ) -> Result<IdentifyCase, InputError> {
-    let Given { model, measurements, channels: (channels, unknown_channel), .. } = given;
+    let Given { model, measurements, respond, channels: (channels, unknown_channel), .. } = given;
     let single = is_single(&unknowns);
     if single {
         options.reduction = reduction_of_band(&options, &unknowns[0], &entry.unknowns[0].varies.place)?;
@@ -172,7 +175,10 @@ pub(super) fn put_together(
     let Some(Located { value: band_hz, place }) = &entry.band_hz else {
         return Err(InputError::at(&entry.place, "the key \"band_hz\"", "none"));
     };
-    let data = band(measurements, model.decay_per_s(), *band_hz, place)?;
+    let data = match measurements.iter().all(|measurement| measurement.curve.is_some()) {
+        true => band(measurements, model.decay_per_s(), *band_hz, place)?,
+        false => unmeasured(respond, *band_hz, measurements.len()),
+    };
     let left_out = unused(&data, &entry.exclude, entry.max_lines.as_ref())?;
     let used = left_out.iter().filter(|&&out| !out).count();
     if !single {

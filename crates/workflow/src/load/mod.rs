@@ -69,6 +69,9 @@ use structure::{Structure, structure};
 pub enum Purpose {
     /// `[identify]` and the files of all measurements are needed.
     Identify,
+    /// `[identify]` is needed. Where a measurement has no file, no file is read: the values are not needed, and the frequencies are those of `[respond]`
+    /// in the band, or equally spaced.
+    Train,
     /// Neither is: a measurement's file is opened only for what the case leaves open (where it was measured, what was
     /// measured, and without `[respond]` the frequencies of the first).
     Respond,
@@ -76,6 +79,12 @@ pub enum Purpose {
     Sensitivities,
     /// Neither is: all files of measurements that there are, within the band.
     Modes,
+}
+
+impl Purpose {
+    fn identifies(self) -> bool {
+        matches!(self, Self::Identify | Self::Train)
+    }
 }
 
 /// Reads a case and every file it names.
@@ -106,7 +115,7 @@ fn load_text(
 ) -> Result<Case, InputError> {
     let mut case = case::parse(case_file, bytes)?;
     case.solver = solver::overridden(case.solver, overrides)?;
-    let keeps_dimensions = purpose == Purpose::Identify && case.unknowns().any(|one| one.nominal.is_some());
+    let keeps_dimensions = purpose.identifies() && case.unknowns().any(|one| one.nominal.is_some());
     let mut coarser_mesh = None;
     // A coarser mesh is compared with what was read.
     let shared = shared.filter(|_| case.coarser_mesh.is_none());
@@ -115,7 +124,7 @@ fn load_text(
         Some(shared) => (shared.model.clone(), shared.of.clone(), Arc::clone(&shared.dofs)),
         None => {
             let structure = structure(&case, keeps_dimensions, &mut files)?;
-            if let Some(entry) = case.coarser_mesh.as_ref().filter(|_| purpose == Purpose::Identify) {
+            if let Some(entry) = case.coarser_mesh.as_ref().filter(|_| purpose.identifies()) {
                 let fine = (&structure, keeps_dimensions);
                 coarser_mesh = Some(coarser::coarser_mesh(entry, fine, &mut files)?);
             }
@@ -131,7 +140,7 @@ fn load_text(
     let model = model.with_decay_per_s(common_decay(&measurements)?);
     let (mut sensitivities, mut modes) = (None, None);
     let (identify, respond_hz) = match purpose {
-        Purpose::Identify => {
+        Purpose::Identify | Purpose::Train => {
             let identify = identify::identify(&case, overrides, (&model, &of), &measurements, &mut files)?;
             let frequency_hz = identify.frequency_hz.clone();
             (Some(identify), frequency_hz)
@@ -216,6 +225,7 @@ fn measurements(
     };
     let asks_for_values = |k: usize| match purpose {
         Purpose::Identify => true,
+        Purpose::Train => case.measurements.iter().all(|entry| entry.file.is_some()),
         Purpose::Respond => k == 0 && case.respond.is_none(),
         Purpose::Modes => case.measurements[k].file.is_some(),
         Purpose::Sensitivities => case.respond.is_none() && case.measurements[k].file.is_some(),
