@@ -8,8 +8,8 @@ use frfit::c64;
 use frfit::for_each::map;
 use frfit::subspace::{Point, Subspace, TrainOptions};
 use frfit_bench::wrong_models::dice::Dice;
-use frfit_bench::{Table, machine, memory};
-use frfit_examples::{Model, sandwich};
+use frfit_bench::{Table, machine, memory, panel, panel_dofs};
+use frfit_examples::Model;
 use rayon::prelude::*;
 use std::error::Error;
 use std::fmt::Write;
@@ -40,8 +40,8 @@ fn main() -> Result<(), Failure> {
     let (dofs, specimens, temperatures, lines) = (next(50_000)?, next(40)?, next(5)?, next(1000)?);
     let program = program()?;
     // An eighth of the length across, four elements through the thickness.
-    let nx = (8..).step_by(8).find(|nx| 15 * nx * (nx / 8 + 1) >= dofs * 9 / 10).unwrap_or(160);
-    let model = sandwich(nx, nx / 8, 2)?;
+    let nx = (8..).step_by(8).find(|&nx| panel_dofs(nx) >= dofs * 9 / 10).unwrap_or(160);
+    let model = panel(nx)?;
     println!("Many specimens of one structure: frfit batch with a kept reduced model\n{}", machine());
     println!(
         "{} degrees of freedom, {specimens} specimens × {temperatures} temperatures, {lines} lines, two sensors, 1 % noise\n",

@@ -9,9 +9,8 @@
 
 use frfit::c64;
 use frfit::model::DynamicStiffness;
-use frfit_bench::{Table, machine, memory};
+use frfit_bench::{Table, machine, memory, panel, panel_dofs};
 use frfit_engine::{Launch, Mumps, RankUsage};
-use frfit_examples::sandwich;
 use frfit_linalg::solve::{Analysis, Breakdown, CheckedFactor, Engine, HasSymbolic, Multifrontal};
 use std::error::Error;
 use std::process::Command;
@@ -35,8 +34,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut numbers = std::env::args().skip(1).map(|text| text.parse::<usize>());
     let mut number = |usual: usize| numbers.next().unwrap_or(Ok(usual));
     let (dofs, ranks, kills) = (number(50_000)?, number(3)?, number(0)?);
-    let nx = (8..).step_by(8).find(|nx| 15 * nx * (nx / 8 + 1) >= dofs).unwrap_or(160);
-    let model = sandwich(nx, nx / 8, 2)?.stiffness;
+    let nx = (8..).step_by(8).find(|&nx| panel_dofs(nx) >= dofs).unwrap_or(160);
+    let model = panel(nx)?.stiffness;
     let frequency_hz = 500.0;
     let complex = model.at(frequency_hz, &[])?.assemble(&[]);
     let real: Vec<f64> = complex.iter().map(|value| value.re).collect();

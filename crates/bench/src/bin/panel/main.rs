@@ -9,8 +9,8 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // tables are what a benchmark is for
 
 use frfit_bench::measurement::by_subspace;
-use frfit_bench::{Structure, Table, exponent, machine, memory};
-use frfit_examples::{Model, sandwich};
+use frfit_bench::{Structure, Table, exponent, machine, memory, panel, panel_dofs};
+use frfit_examples::Model;
 use serde_json::Value;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -52,9 +52,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("From files to the modulus: frfit identify over the size of the model\n{}", machine());
     println!("{FREQUENCIES} frequencies; wall seconds of the whole program and of its stages\n");
     let mut costs = Vec::new();
-    let dofs = |nx: usize| 15 * nx * (nx / 8 + 1);
-    for nx in LENGTHS.into_iter().filter(|&nx| range.contains(&dofs(nx))) {
-        eprintln!("{} degrees of freedom …", dofs(nx));
+    for nx in LENGTHS.into_iter().filter(|&nx| range.contains(&panel_dofs(nx))) {
+        eprintln!("{} degrees of freedom …", panel_dofs(nx));
         costs.push(cost(&program, nx, kept.as_deref())?);
     }
     println!("{}", table(&costs));
@@ -74,7 +73,7 @@ fn program() -> Result<PathBuf, Box<dyn Error>> {
 
 fn cost(program: &Path, nx: usize, kept: Option<&Path>) -> Result<Cost, Box<dyn Error>> {
     let temporary = tempfile::tempdir()?;
-    let model = sandwich(nx, nx / 8, 2)?;
+    let model = panel(nx)?;
     let dofs = model.stiffness.dim();
     let folder = kept.map_or(temporary.path().to_path_buf(), |kept| kept.join(dofs.to_string()));
     fs::create_dir_all(&folder)?;

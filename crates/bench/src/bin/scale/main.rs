@@ -9,8 +9,7 @@
 use frfit::frequency::linear_hz;
 use frfit::identify::Options;
 use frfit_bench::measurement::{BySubspace, by_subspace};
-use frfit_bench::{Run, Structure, Table, exponent, machine, memory};
-use frfit_examples::sandwich;
+use frfit_bench::{Run, Structure, Table, exponent, machine, memory, panel, panel_dofs};
 use std::error::Error;
 
 /// Elements along the sandwich; an eighth of it across, and four through the thickness: 10k, 30k, 50k, 100k, 300k degrees of freedom.
@@ -42,8 +41,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         "{FREQUENCIES} frequencies, one thread; stages in CPU seconds; before: resident memory before the identification\n"
     );
     let mut costs = Vec::new();
-    for nx in LENGTHS.into_iter().filter(|nx| 15 * nx * (nx / 8 + 1) <= limit) {
-        eprintln!("{} degrees of freedom …", 15 * nx * (nx / 8 + 1));
+    for nx in LENGTHS.into_iter().filter(|&nx| panel_dofs(nx) <= limit) {
+        eprintln!("{} degrees of freedom …", panel_dofs(nx));
         costs.push(cost(nx)?);
     }
     println!("{}", table(&costs));
@@ -51,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn cost(nx: usize) -> Result<Cost, Box<dyn Error>> {
-    let model = sandwich(nx, nx / 8, 2)?;
+    let model = panel(nx)?;
     let dofs = model.stiffness.dim();
     let [first, last] = model.band_hz;
     let mut structure = Structure::of(model, linear_hz(first, last, FREQUENCIES), 1e-5, 3.0);
