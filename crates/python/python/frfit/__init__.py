@@ -14,6 +14,7 @@ exp(+i omega t), rows are counted from 0. What does not exist is NaN, and ``stat
 """
 
 from ._batch import Batch, BatchStatus, Trained, batch, batch_status, collect, train
+from ._case_file import save_case
 from ._errors import (
     FrfitError,
     InputError,
@@ -124,6 +125,7 @@ __all__ = [
     "respond",
     "respond_case",
     "run_case",
+    "save_case",
     "sensitivities",
     "series",
     "train",

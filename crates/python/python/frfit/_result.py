@@ -593,7 +593,8 @@ class Identification:
     def report(self, path: str | os.PathLike[str] | None = None) -> Report:
         """The HTML page of results that ``run_case(case, out)`` wrote; with ``path`` it is written there too.
 
-        Results of arrays, and of ``run_case`` without a folder, have no files: an :class:`InputError`.
+        Results of arrays, and of ``run_case`` without a folder, have no files: an :class:`InputError`. :func:`save_case` makes a
+        case of arrays.
         """
         if self.folder is None:
             raise refuse("report", "results with a folder, as run_case(case, out) writes them", "results without files")
