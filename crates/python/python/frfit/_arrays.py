@@ -274,3 +274,10 @@ def only_of_a_model(**given: object) -> None:
     for name, value in given.items():
         if not (value is None or (isinstance(value, Sequence) and len(value) == 0)):
             raise refuse(name, "nothing beside a case file, which says it", shown(value))
+
+
+def only_of_a_case(**given: object) -> None:
+    """Refuses what works on files, beside a model; `save_case` makes a case of it."""
+    for name, value in given.items():
+        if value is not None:
+            raise refuse(name, "nothing beside a model; save_case writes the arrays as a case file", shown(value))

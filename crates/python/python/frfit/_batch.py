@@ -104,6 +104,8 @@ def train(
 ) -> Trained:
     """What ``frfit train CASE`` does: trains the reduced model of a case and writes it, for ``reduced=`` of other runs.
 
+    The case needs no measured FRFs: it is trained at the frequencies of ``[respond]``, or over the band.
+
     Raises
     ------
     InputError, OutsideTableError, ModelMemoryError, WriteError

@@ -16,6 +16,7 @@ from ._arrays import (
     Real,
     hints,
     load_vector,
+    only_of_a_case,
     only_of_a_model,
     optional_pair,
     optional_whole,
@@ -182,9 +183,7 @@ def modes(
         only_of_a_model(measurements=measurements, load=load, sensors=sensors, matrix=matrix, unknowns=unknowns)
         found = _frfit.modes(case, out, band, identified, reduced, largest, limit)
     else:
-        for name, path in (("out", out), ("identified", identified), ("reduced", reduced)):
-            if path is not None:
-                raise refuse(name, "None beside a model", "a path")
+        only_of_a_case(out=out, identified=identified, reduced=reduced)
         if load is None:
             raise refuse("load", "a row, or a value for each row", "none")
         if isinstance(measurements, Measurement) or len(measurements) > 0:

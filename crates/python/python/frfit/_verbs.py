@@ -19,6 +19,7 @@ from ._arrays import (
     hints,
     load_vector,
     number,
+    only_of_a_case,
     only_of_a_model,
     optional_number,
     optional_pair,
@@ -27,7 +28,6 @@ from ._arrays import (
     refuse,
     row,
     several,
-    shown,
     whole,
     word,
     words,
@@ -191,8 +191,7 @@ def check(
     """
     band, limit = optional_pair(band_hz, "band_hz"), optional_whole(memory_bytes, "memory_bytes", 0)
     if isinstance(case, Model):
-        if reduced is not None:
-            raise refuse("reduced", "None beside a model", shown(reduced))
+        only_of_a_case(reduced=reduced)
         if load is None:
             raise refuse("load", "a row, or a value for each row", "none")
         asked = arguments_of(
@@ -270,9 +269,7 @@ def sensitivities(
         raise OptionsError(f"noise: expected a number above 0, found {part}")
     limit = optional_whole(memory_bytes, "memory_bytes", 0)
     if isinstance(case, Model):
-        for name, value in (("out", out), ("band_hz", band_hz), ("reduced", reduced)):
-            if value is not None:
-                raise refuse(name, "None beside a model", shown(value))
+        only_of_a_case(out=out, band_hz=band_hz, reduced=reduced)
         if load is None or frequency_hz is None:
             raise refuse("load" if load is None else "frequency_hz", "what respond takes, beside a model", "none")
         rows, senses = sensors_of(sensors, signs, case.dim)
