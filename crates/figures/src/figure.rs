@@ -1,5 +1,6 @@
 //! The figure and its panels.
 
+use crate::svg::Letters;
 use crate::{Axis, Color, HeatMap, Series, Strip, draw};
 
 /// Panels from top to bottom on one shared x axis.
@@ -23,9 +24,14 @@ impl Default for Figure {
 }
 
 impl Figure {
-    /// The figure as an SVG document.
+    /// The figure as an SVG document. Its labels are text, which can be searched, in the font of the reader.
     pub fn svg(&self) -> String {
-        draw::figure(self)
+        draw::figure(self, Letters::Text)
+    }
+
+    /// The same with labels as outlines of the embedded font: it looks the same everywhere. Each has its words as `aria-label`.
+    pub fn outlined_svg(&self) -> String {
+        draw::figure(self, Letters::Outlines)
     }
 }
 

@@ -1,13 +1,11 @@
 //! The SVG drawing as pixels.
 
 use std::fmt::{Display, Formatter};
-use std::sync::Arc;
 
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{self, Options, Tree, fontdb};
+use resvg::usvg::{self, Options, Tree};
 
 use crate::Figure;
-use crate::text::{FAMILY, font};
 
 /// Longest side of a picture in pixels.
 const LONGEST: f64 = 16384.0;
@@ -53,14 +51,14 @@ impl std::error::Error for PngError {
 }
 
 impl Figure {
-    /// The drawing of [`Figure::svg`] as a PNG with `pixels_per_unit` pixels to an SVG unit (1.25 makes
+    /// The drawing of [`Figure::outlined_svg`] as a PNG with `pixels_per_unit` pixels to an SVG unit (1.25 makes
     /// the default size 900 pixels wide).
     ///
     /// # Errors
     /// [`PngError::Size`] if the resolution does not give a picture of usual size; the others are faults
     /// of the rasteriser.
     pub fn png(&self, pixels_per_unit: f64) -> Result<Vec<u8>, PngError> {
-        let tree = Tree::from_str(&self.svg(), &options()).map_err(PngError::Svg)?;
+        let tree = Tree::from_str(&self.outlined_svg(), &Options::default()).map_err(PngError::Svg)?;
         let [width, height] = [tree.size().width(), tree.size().height()]
             .map(|side| (f64::from(side) * pixels_per_unit).round());
         let usual = |side: f64| (1.0..=LONGEST).contains(&side);
@@ -71,11 +69,4 @@ impl Figure {
         resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
         pixmap.encode_png().map_err(|cause| PngError::Encode(Box::new(cause)))
     }
-}
-
-/// Rasteriser options with the embedded font and no other.
-fn options() -> Options<'static> {
-    let mut options = Options { font_family: FAMILY.to_owned(), ..Options::default() };
-    options.fontdb_mut().load_font_source(fontdb::Source::Binary(Arc::new(font())));
-    options
 }

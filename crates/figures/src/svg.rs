@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter};
 
-use crate::text::{FAMILY, Rise, SMALL, runs};
+use crate::text::{FAMILY, Rise, outlines, runs, width};
 
 /// A number as SVG reads it: two decimals, no exponent, no "NaN" or "inf".
 #[derive(Clone, Copy)]
@@ -61,14 +61,24 @@ pub(crate) enum Anchor {
     End,
 }
 
+/// How letters are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Letters {
+    /// As text, which can be searched and is set in the font of the reader.
+    Text,
+    /// As outlines of the embedded font.
+    Outlines,
+}
+
 /// A document being written.
-pub(crate) struct Svg(String);
+pub(crate) struct Svg(String, Letters);
 
 impl Svg {
     /// An empty white page.
-    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+    pub(crate) fn new((width, height): (f64, f64), title: &str, letters: Letters) -> Self {
         let (w, h) = (N(width), N(height));
-        let mut svg = Self(format!(
+        let of = |text: String| Self(text, letters);
+        let mut svg = of(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
              font-family=\"{FAMILY}, Verdana, Arial, sans-serif\" fill=\"#1a1a1a\" \
              xml:space=\"preserve\">\n\
@@ -111,12 +121,31 @@ impl Svg {
 
     /// A line of text whose baseline passes through (x, y).
     pub(crate) fn text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str) {
-        self.set_text((x, y), size, anchor, text, "");
+        match self.1 {
+            Letters::Text => self.set_text((x, y), size, anchor, text, ""),
+            Letters::Outlines => self.outlined(size, anchor, text, |dx, dy| (x + dx, y + dy)),
+        }
     }
 
     /// The same, read from bottom to top.
     pub(crate) fn upward_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str) {
-        self.set_text((x, y), size, anchor, text, &format!(" transform=\"rotate(-90 {} {})\"", N(x), N(y)));
+        let turn = || format!(" transform=\"rotate(-90 {} {})\"", N(x), N(y));
+        match self.1 {
+            Letters::Text => self.set_text((x, y), size, anchor, text, &turn()),
+            Letters::Outlines => self.outlined(size, anchor, text, |dx, dy| (x + dy, y - dx)),
+        }
+    }
+
+    /// The text as one path, each point of which is put to its place.
+    fn outlined(&mut self, size: f64, anchor: Anchor, text: &str, at: impl Fn(f64, f64) -> (f64, f64)) {
+        let before = match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5,
+            Anchor::End => 1.0,
+        };
+        let start = -before * width(text, size);
+        let commands = outlines(text, size, |dx, dy| at(start + dx, dy));
+        self.path(&commands, &format!("aria-label=\"{}\"", escaped(text)));
     }
 
     fn set_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str, turn: &str) {
@@ -130,11 +159,7 @@ impl Svg {
             &format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size_n}\" text-anchor=\"{anchor}\"{turn}>");
         let mut height = 0.0;
         for (rise, run) in runs(text) {
-            let (target, size) = match rise {
-                Rise::Base => (0.0, size),
-                Rise::Super => (0.38 * size, SMALL * size),
-                Rise::Sub => (-0.18 * size, SMALL * size),
-            };
+            let (target, size) = rise.set(size);
             let (dy, run) = (N(height - target), escaped(&run));
             match rise {
                 Rise::Base if height == 0.0 => self.0 += &run,

@@ -1,18 +1,22 @@
-//! Text as it is set: raised and lowered digits, widths, shortening.
+//! Text as it is set: raised and lowered digits, widths, outlines, shortening.
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
+use std::fmt::Write;
 
-/// The embedded font, DejaVu Sans: it has the Greek, mathematical and superscript signs.
-pub(crate) fn font() -> &'static [u8] {
-    dejavu::sans::regular()
+use ttf_parser::{Face, OutlineBuilder};
+
+use crate::svg::N;
+
+/// The embedded font, DejaVu Sans: it has the Greek, mathematical and superscript signs. The font is part of the program; widths are a fair guess
+/// where it could not be read.
+fn font() -> Option<Face<'static>> {
+    Face::parse(dejavu::sans::regular(), 0).ok()
 }
 
 /// Name of [`font`].
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
 /// Size of raised and lowered text relative to the text around it.
-pub(crate) const SMALL: f64 = 0.72;
+const SMALL: f64 = 0.72;
 
 /// How a run of characters stands on the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +24,17 @@ pub(crate) enum Rise {
     Base,
     Super,
     Sub,
+}
+
+impl Rise {
+    /// How far it is above the line, and how large it is, in a text of a size.
+    pub(crate) fn set(self, size: f64) -> (f64, f64) {
+        match self {
+            Self::Base => (0.0, size),
+            Self::Super => (0.38 * size, SMALL * size),
+            Self::Sub => (-0.18 * size, SMALL * size),
+        }
+    }
 }
 
 /// The text in runs of one rise each, superscript and subscript signs replaced by full-size ones:
@@ -50,15 +65,76 @@ fn plain(c: char) -> (Rise, char) {
 
 /// Width of the text set in the embedded font at `size`.
 pub(crate) fn width(text: &str, size: f64) -> f64 {
-    // the font is part of the program; a reader that could not read it would still get a fair guess
-    let Ok(font) = FontRef::new(font()) else { return 0.6 * size * text.chars().count() as f64 };
-    let (charmap, metrics) = (font.charmap(), font.glyph_metrics(Size::new(1.0), LocationRef::default()));
-    let advance = |c: char| f64::from(charmap.map(c).and_then(|g| metrics.advance_width(g)).unwrap_or(1.0));
+    let Some(font) = font() else { return 0.6 * size * text.chars().count() as f64 };
     let run = |(rise, run): (Rise, String)| {
-        let size = if rise == Rise::Base { size } else { SMALL * size };
-        size * run.chars().map(advance).sum::<f64>()
+        let (_, size) = rise.set(size);
+        size * run.chars().map(|c| advance(&font, c)).sum::<f64>()
     };
     runs(text).into_iter().map(run).sum()
+}
+
+/// How far a character leads, in a font of size 1.
+fn advance(font: &Face<'_>, c: char) -> f64 {
+    let units = font.glyph_index(c).and_then(|glyph| font.glyph_hor_advance(glyph));
+    units.map_or(1.0, |units| f64::from(units) / f64::from(font.units_per_em()))
+}
+
+/// The outlines of the text set in the embedded font at `size`, from the origin to the right, as the commands of an SVG path; each point is put to its place by `at`.
+pub(crate) fn outlines(text: &str, size: f64, at: impl Fn(f64, f64) -> (f64, f64)) -> String {
+    let mut commands = String::new();
+    let Some(font) = font() else { return commands };
+    let mut x = 0.0;
+    for (rise, run) in runs(text) {
+        let (height, size) = rise.set(size);
+        let scale = size / f64::from(font.units_per_em());
+        for c in run.chars() {
+            // A character that the font lacks is shown as glyph 0.
+            let glyph = font.glyph_index(c).unwrap_or_default();
+            let place = |dx: f32, up: f32| at(x + scale * f64::from(dx), -height - scale * f64::from(up));
+            font.outline_glyph(glyph, &mut Outline { commands: &mut commands, place });
+            x += size * advance(&font, c);
+        }
+    }
+    commands
+}
+
+/// Writes the outline of a glyph.
+struct Outline<'c, P> {
+    commands: &'c mut String,
+    place: P,
+}
+
+impl<P: Fn(f32, f32) -> (f64, f64)> Outline<'_, P> {
+    fn add(&mut self, command: char, points: &[(f32, f32)]) {
+        self.commands.push(command);
+        for &(x, y) in points {
+            let (x, y) = (self.place)(x, y);
+            // Writing to a text does not fail.
+            let _ = write!(self.commands, "{} {} ", N(x), N(y));
+        }
+    }
+}
+
+impl<P: Fn(f32, f32) -> (f64, f64)> OutlineBuilder for Outline<'_, P> {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.add('M', &[(x, y)]);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.add('L', &[(x, y)]);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.add('Q', &[(x1, y1), (x, y)]);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.add('C', &[(x1, y1), (x2, y2), (x, y)]);
+    }
+
+    fn close(&mut self) {
+        self.commands.push('Z');
+    }
 }
 
 /// The text and the size at which it fits into `room`: smaller by up to 30 %, then cut with an ellipsis.
@@ -84,9 +160,9 @@ mod tests {
 
     #[test]
     fn the_font_has_the_signs_of_the_trade() {
-        let font = FontRef::new(font()).expect("embedded font");
+        let font = font().expect("embedded font");
         for c in "ηρωεδαλΔΣ′″−×·…⁻₀°≤≥→µ".chars() {
-            assert!(font.charmap().map(c).is_some(), "no glyph for {c}");
+            assert!(font.glyph_index(c).is_some(), "no glyph for {c}");
         }
     }
 
@@ -96,6 +172,24 @@ mod tests {
         let want = [(Rise::Base, "10"), (Rise::Super, "−5"), (Rise::Base, " c"), (Rise::Sub, "1")];
         assert_eq!(got, want.map(|(rise, run)| (rise, run.to_owned())));
         assert!(width("10⁻⁵", 13.0) < width("10−5", 13.0));
+    }
+
+    #[test]
+    fn outlines_end_where_the_width_does() {
+        let ends = |text: &str| {
+            let numbers = outlines(text, 100.0, |x, y| (x, y));
+            let numbers = numbers.split(|c: char| !(c.is_ascii_digit() || ".-".contains(c)));
+            let numbers: Vec<f64> = numbers.filter_map(|number| number.parse().ok()).collect();
+            let of = |axis: usize| numbers.iter().skip(axis).step_by(2).copied();
+            [of(0).fold(0.0, f64::max), of(1).fold(f64::INFINITY, f64::min), of(1).fold(-99.0, f64::max)]
+        };
+        // An H of DejaVu Sans is 0.729 high, and ends 0.098 before the next letter.
+        let [right, top, bottom] = ends("HHH");
+        assert!(
+            (right - (width("HHH", 100.0) - 9.8)).abs() < 0.1 && (top + 72.9).abs() < 0.1 && bottom == 0.0
+        );
+        assert!(ends("H²")[1] < -80.0 && ends("H₂")[2] > 15.0);
+        assert_eq!(outlines(" ", 100.0, |x, y| (x, y)), "");
     }
 
     #[test]

@@ -177,6 +177,20 @@ fn the_png_is_the_picture_at_the_size_asked_for() -> Result<(), PngError> {
 }
 
 #[test]
+fn outlines_have_the_words_of_the_text() {
+    let figure = figure(Panel { series: vec![series(&[0.0, 1.0], &[0.0, 1.0])], ..Panel::default() });
+    let outlined = figure.outlined_svg();
+    let document = Document::parse(&outlined).expect("valid XML");
+    let mut labels: Vec<&str> = document.descendants().filter_map(|n| n.attribute("aria-label")).collect();
+    let mut words = texts(&figure.svg());
+    words.retain(|text| !text.is_empty());
+    assert!(texts(&outlined).is_empty() && words.len() > 8);
+    labels.sort_unstable();
+    words.sort();
+    assert_eq!(labels, words);
+}
+
+#[test]
 fn a_resolution_without_picture_is_refused() {
     let figure = figure(Panel::default());
     for resolution in [0.0, -1.0, 1e-9, 1e9, f64::NAN, f64::INFINITY] {

@@ -7,15 +7,15 @@ mod key;
 
 use crate::layout::{BORDER, Frame, Layout, TEXT, TITLE};
 use crate::scale::Map;
-use crate::svg::{Anchor, N, Rect, Svg};
+use crate::svg::{Anchor, Letters, N, Rect, Svg};
 use crate::text::fitted;
 use crate::{Bands, Figure, Level, Panel};
 
 /// The whole drawing.
-pub(crate) fn figure(figure: &Figure) -> String {
+pub(crate) fn figure(figure: &Figure, letters: Letters) -> String {
     let layout = Layout::of(figure);
-    let (width, height) = layout.size;
-    let mut svg = Svg::new(width, height, &figure.title);
+    let (width, _) = layout.size;
+    let mut svg = Svg::new(layout.size, &figure.title, letters);
     let (title, size) = fitted(&figure.title, TITLE, width - 2.0 * BORDER);
     svg.text((0.5 * width, BORDER + TITLE), size, Anchor::Middle, &title);
     for (panel, frame) in figure.panels.iter().zip(&layout.frames) {
