@@ -355,6 +355,29 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
     }
 }
 
+/// A smooth core beside free skins on a coarse mesh: the core takes the trend of the mesh's errors, so that its bars have to hold what single modes of any mesh err by.
+#[test]
+fn a_smooth_core_beside_free_skins_is_not_far_off_on_a_coarse_mesh() {
+    let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
+    let count = of_tier(48, 160);
+    let measured = Measured::on(&sandwich(30, 1), &truth, linear_hz(20.0, 1000.0, count), 0.005, 8);
+    let case = changed(sandwich(10, 1), |term| if term.name == "skins" { 0.8 } else { 1.0 });
+    let unknowns = [("core", Variation::Smooth), ("skins", Variation::Constant)]
+        .map(|(name, varies)| Unknown { varies, ..Unknown::factor_of(&case.model, &[name]).unwrap() });
+    let (frequency_hz, receptance) = (&measured.frequency_hz[..], &measured.u[..]);
+    let frfs = Frfs { frequency_hz, receptance, noise: Noise::Known(&measured.std) };
+    let problem = Problem::new(&case.model, &case.experiment, &unknowns, &[], frfs).unwrap();
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let found = identify(&problem, &Options::default(), context).unwrap();
+    let off = |(line, truth): (&frfit::identify::Line, &c64)| {
+        let factor = line.factor().filter(|_| line.status == Status::Ok)?;
+        Some((factor.re - truth.re).abs() / line.uncertainty()?.storage_std)
+    };
+    let off: Vec<f64> = found.lines.iter().zip(&measured.truth).filter_map(off).collect();
+    let far = off.iter().filter(|off| **off > 4.0).count();
+    assert!(10 * off.len() >= 9 * count && far == 0, "{} ok, {far} far: {off:?}", off.len());
+}
+
 /// The same beam with narrow modes, complex constants, and noise that nobody knows: from a smooth modulus with errors to constants with errors there are many minima,
 /// and the one that is found leaves the noise that the responses show.
 #[test]

@@ -323,6 +323,11 @@ impl Curves {
         (0..self.each.len()).filter(|&j| matches!(self.each[j].0, Curve::Spline(_))).collect()
     }
 
+    /// Whether a smooth curve stands beside other unknowns.
+    pub(super) fn is_beside_others(&self) -> bool {
+        self.each.len() > 1 && !self.smooth().is_empty()
+    }
+
     /// Multiplies a smooth unknown by exp(by).
     pub(super) fn scale(&self, theta: &mut [f64], unknown: usize, by: f64) {
         if let (Curve::Spline(spline), range) = &self.each[unknown] {

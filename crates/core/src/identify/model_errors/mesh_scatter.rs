@@ -19,14 +19,24 @@ impl Fitting<'_, '_> {
     }
 
     /// The standard deviation that the mesh adds to an own δ or a: modes converge by somewhat different orders, and those without a partner by an unknown one.
+    /// Without a coarser mesh it is the least that any mesh adds to a δ.
     pub(super) fn scatter_of_mesh(&self, coordinate: usize) -> f64 {
-        let Some(mesh) = self.mesh else { return 0.0 };
-        let mode = match self.own().contains(&coordinate) {
+        let is_own = self.own().contains(&coordinate);
+        let Some(mesh) = self.mesh else {
+            let of_mode =
+                |i: usize| (self.modes.omega_rad_s[self.modes.of_error[i]] / self.highest_rad_s).powi(2);
+            return if is_own {
+                self.known.least_of_modes * of_mode(coordinate - self.first_own())
+            } else {
+                0.0
+            };
+        };
+        let mode = match is_own {
             true => self.modes.of_error[coordinate - self.first_own()],
             false => (coordinate - self.shapes().start) % self.modes(),
         };
         let between = match mesh.is_paired(mode) {
-            true if self.own().contains(&coordinate) => mesh.largest_below[mode],
+            true if is_own => mesh.largest_below[mode],
             true => self.between_shapes(coordinate).abs(),
             false => mesh.usual * self.growth(coordinate),
         };

@@ -157,6 +157,10 @@ const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
 /// A mesh of beams or plates errs by as much at the top of the band, where its modes scatter hardly at all: an unknown that varies with frequency absorbs it.
 const LEAST_OF_MESH_STD: f64 = 0.01;
 
+/// A curve beside other unknowns absorbs what single modes err by too, so that the data do not show its size: elements of a coarse mesh err by other amounts in
+/// twisting than in bending.
+const LEAST_OF_MODES_STD: f64 = 0.02;
+
 /// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
 const MAX_COMMON_STD: f64 = 0.025;
 
@@ -202,18 +206,26 @@ struct KnownSizes {
     common_ratio: f64,
     /// The least of what grows with frequency.
     least_of_mesh: f64,
+    /// The least of what each mode has of its own; it grows with the square of the frequency.
+    least_of_modes: f64,
 }
 
 impl KnownSizes {
-    /// What the user says, and whether a coarser mesh shows what the mesh has in common.
-    fn new(given: ErrorSizes, mesh: Option<&BetweenMeshes>) -> Self {
+    /// What the user says, whether a coarser mesh shows what the mesh has in common, and whether a curve stands beside other unknowns.
+    fn new(given: ErrorSizes, mesh: Option<&BetweenMeshes>, is_curve_beside_others: bool) -> Self {
         let common_ratio = match (given.frequency, mesh) {
             (Some(_), _) => 1.0,
             (None, Some(_)) => COMMON_RATIO_BESIDE_MESH,
             (None, None) => COMMON_RATIO,
         };
         let is_unknown = given.frequency.is_none() && mesh.is_none();
-        Self { given, common_ratio, least_of_mesh: if is_unknown { LEAST_OF_MESH_STD } else { 0.0 } }
+        let least = |is_wanted: bool, std: f64| if is_wanted { std } else { 0.0 };
+        Self {
+            given,
+            common_ratio,
+            least_of_mesh: least(is_unknown, LEAST_OF_MESH_STD),
+            least_of_modes: least(is_unknown && is_curve_beside_others, LEAST_OF_MODES_STD),
+        }
     }
 }
 
@@ -592,7 +604,7 @@ impl<'t, 'a> Search<'t, 'a> {
             factors: &self.factors,
             kinds: Kinds::ALL,
             mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
-            known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref()),
+            known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref(), self.curves.is_beside_others()),
             free_nodes: true,
             for_each: self.for_each,
         }
