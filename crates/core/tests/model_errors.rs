@@ -8,8 +8,8 @@ use frfit::for_each::sequential;
 use frfit::frequency::linear_hz;
 use frfit::identify::{
     Assumption, Calibration, ChannelUnknowns, CoarserMesh, Context, ErrorSizes, Explained, Frfs,
-    Identification, LeverageOf, ModelErrors, Noise, Number, Options, Problem, Status, Unknown, Variation,
-    identify,
+    Identification, LeverageOf, Line, ModelErrors, Noise, Number, Options, Problem, Status, Unknown,
+    Variation, identify,
 };
 use frfit::laws::LawKind;
 use frfit::linalg::modes::lowest;
@@ -70,6 +70,26 @@ impl Measured {
         band.identify(varies, channels, &setup, context)
     }
 
+    /// With constant skins that are unknown too.
+    fn core_beside_skins(&self, case: &Case, varies: Variation, model_errors: ModelErrors) -> Identification {
+        let unknowns = [("core", varies), ("skins", Variation::Constant)]
+            .map(|(name, varies)| Unknown { varies, ..Unknown::factor_of(&case.model, &[name]).unwrap() });
+        let (frequency_hz, receptance) = (&self.frequency_hz[..], &self.u[..]);
+        let frfs = Frfs { frequency_hz, receptance, noise: Noise::Known(&self.std) };
+        let problem = Problem::new(&case.model, &case.experiment, &unknowns, &[], frfs).unwrap();
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        identify(&problem, &Options::default().with_model_errors(model_errors), context).unwrap()
+    }
+
+    /// How many standard deviations E′ is off at each of the lines that are wanted and have an error bar.
+    fn bars_off(&self, found: &Identification, is_wanted: impl Fn(&Line) -> bool) -> Vec<f64> {
+        let off = |(line, truth): (&Line, &c64)| {
+            let factor = line.factor().filter(|_| is_wanted(line))?;
+            Some((factor.re - truth.re).abs() / line.uncertainty()?.storage_std)
+        };
+        found.lines.iter().zip(&self.truth).filter_map(off).collect()
+    }
+
     /// Of the lines that are ok: how many, median relative error of E′, and the parts with E′ and η within two standard deviations.
     fn judged(&self, found: &Identification) -> (usize, f64, [f64; 2]) {
         let mut errors = Vec::new();
@@ -107,11 +127,7 @@ fn a_wrong_neighbour_and_a_wrong_mass_are_found() {
     let daily = [("skins", skins)];
     for (what, case) in daily.into_iter().chain(of_tier(None, Some(("mass", mass)))) {
         let as_it_is = measured.identified(&case, Variation::PerFrequency, ModelErrors::None);
-        let off = |(line, truth): (&frfit::identify::Line, &c64)| {
-            let factor = line.factor()?;
-            Some((factor.re - truth.re).abs() / line.uncertainty()?.storage_std)
-        };
-        let far = as_it_is.lines.iter().zip(&measured.truth).filter_map(off).filter(|off| *off > 4.0).count();
+        let far = measured.bars_off(&as_it_is, |_| true).into_iter().filter(|off| *off > 4.0).count();
         assert!(5 * far > 2 * count, "{what}: {far}");
         let ways = [
             (Variation::PerFrequency, 0.02),
@@ -306,7 +322,6 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     let count = of_tier(48, 160);
     let measured = Measured::on(&sandwich(12, 1), &truth, linear_hz(20.0, 1000.0, count), 0.01, 5);
-    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
     let median = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
         values[values.len() / 2]
@@ -317,16 +332,7 @@ fn a_smooth_core_beside_constant_skins_is_within_its_bars() {
             (_, Role::Mass) => *mass,
             _ => 1.0,
         });
-        let found = |varies, model_errors| {
-            let unknowns = [("core", varies), ("skins", Variation::Constant)].map(|(name, varies)| Unknown {
-                varies,
-                ..Unknown::factor_of(&case.model, &[name]).unwrap()
-            });
-            let (frequency_hz, receptance) = (&measured.frequency_hz[..], &measured.u[..]);
-            let frfs = Frfs { frequency_hz, receptance, noise: Noise::Known(&measured.std) };
-            let problem = Problem::new(&case.model, &case.experiment, &unknowns, &[], frfs).unwrap();
-            identify(&problem, &Options::default().with_model_errors(model_errors), context).unwrap()
-        };
+        let found = |varies, model_errors| measured.core_beside_skins(&case, varies, model_errors);
         let bars = |found: &Identification| {
             let each = found.lines.iter().filter(|line| line.status == Status::Ok);
             median(
@@ -362,18 +368,8 @@ fn a_smooth_core_beside_free_skins_is_not_far_off_on_a_coarse_mesh() {
     let count = of_tier(48, 160);
     let measured = Measured::on(&sandwich(30, 1), &truth, linear_hz(20.0, 1000.0, count), 0.005, 8);
     let case = changed(sandwich(10, 1), |term| if term.name == "skins" { 0.8 } else { 1.0 });
-    let unknowns = [("core", Variation::Smooth), ("skins", Variation::Constant)]
-        .map(|(name, varies)| Unknown { varies, ..Unknown::factor_of(&case.model, &[name]).unwrap() });
-    let (frequency_hz, receptance) = (&measured.frequency_hz[..], &measured.u[..]);
-    let frfs = Frfs { frequency_hz, receptance, noise: Noise::Known(&measured.std) };
-    let problem = Problem::new(&case.model, &case.experiment, &unknowns, &[], frfs).unwrap();
-    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
-    let found = identify(&problem, &Options::default(), context).unwrap();
-    let off = |(line, truth): (&frfit::identify::Line, &c64)| {
-        let factor = line.factor().filter(|_| line.status == Status::Ok)?;
-        Some((factor.re - truth.re).abs() / line.uncertainty()?.storage_std)
-    };
-    let off: Vec<f64> = found.lines.iter().zip(&measured.truth).filter_map(off).collect();
+    let found = measured.core_beside_skins(&case, Variation::Smooth, ModelErrors::default());
+    let off = measured.bars_off(&found, |line| line.status == Status::Ok);
     let far = off.iter().filter(|off| **off > 4.0).count();
     assert!(10 * off.len() >= 9 * count && far == 0, "{} ok, {far} far: {off:?}", off.len());
 }

@@ -22,18 +22,10 @@ impl Fitting<'_, '_> {
     /// Without a coarser mesh it is the least that any mesh adds to a δ.
     pub(super) fn scatter_of_mesh(&self, coordinate: usize) -> f64 {
         let is_own = self.own().contains(&coordinate);
+        let mode = self.mode_of(coordinate);
         let Some(mesh) = self.mesh else {
-            let of_mode =
-                |i: usize| (self.modes.omega_rad_s[self.modes.of_error[i]] / self.highest_rad_s).powi(2);
-            return if is_own {
-                self.known.least_of_modes * of_mode(coordinate - self.first_own())
-            } else {
-                0.0
-            };
-        };
-        let mode = match is_own {
-            true => self.modes.of_error[coordinate - self.first_own()],
-            false => (coordinate - self.shapes().start) % self.modes(),
+            let least = if is_own { self.known.least_of_modes } else { 0.0 };
+            return least * self.over_highest_squared(mode);
         };
         let between = match mesh.is_paired(mode) {
             true if is_own => mesh.largest_below[mode],

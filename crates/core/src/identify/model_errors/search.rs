@@ -320,13 +320,23 @@ impl Fitting<'_, '_> {
         if of_shape.is_none() && !self.own().contains(&coordinate) {
             return 1.0;
         }
-        let mode = match of_shape {
-            Some(k) => k % self.modes(),
-            None => self.modes.of_error[coordinate - self.first_own()],
-        };
-        let above_band = (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2).max(1.0);
+        let mode = self.mode_of(coordinate);
+        let above_band = self.over_highest_squared(mode).max(1.0);
         let at_node = |k: usize| self.modes.usual_over_own(k / self.modes(), mode);
         above_band * of_shape.filter(|_| self.free_nodes).map_or(1.0, at_node)
+    }
+
+    /// The mode of the coordinate of an own δ or ε, or of an a.
+    pub(super) fn mode_of(&self, coordinate: usize) -> usize {
+        match self.own().contains(&coordinate) {
+            true => self.modes.of_error[coordinate - self.first_own()],
+            false => (coordinate - self.first_load()) % self.modes(),
+        }
+    }
+
+    /// The square of a natural frequency over the highest frequency of the band.
+    pub(super) fn over_highest_squared(&self, mode: usize) -> f64 {
+        (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2)
     }
 
     /// Own parts of δ and ε.
