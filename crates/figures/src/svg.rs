@@ -61,6 +61,13 @@ pub(crate) enum Anchor {
     End,
 }
 
+/// Where a text runs.
+#[derive(Clone, Copy)]
+enum Direction {
+    Right,
+    Up,
+}
+
 /// How letters are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Letters {
@@ -71,108 +78,126 @@ pub(crate) enum Letters {
 }
 
 /// A document being written.
-pub(crate) struct Svg(String, Letters);
+pub(crate) struct Svg {
+    written: String,
+    letters: Letters,
+}
 
 impl Svg {
     /// An empty white page.
     pub(crate) fn new((width, height): (f64, f64), title: &str, letters: Letters) -> Self {
         let (w, h) = (N(width), N(height));
-        let of = |text: String| Self(text, letters);
-        let mut svg = of(format!(
+        let written = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
              font-family=\"{FAMILY}, Verdana, Arial, sans-serif\" fill=\"#1a1a1a\" \
              xml:space=\"preserve\">\n\
              <title>{}</title>\n",
             escaped(title)
-        ));
+        );
+        let mut svg = Self { written, letters };
         svg.rect(Rect { x: 0.0, y: 0.0, width, height }, "fill=\"#fff\"");
         svg
     }
 
     /// Elements that share attributes.
     pub(crate) fn group(&mut self, attributes: &str, content: impl FnOnce(&mut Self)) {
-        self.0 += &format!("<g {attributes}>\n");
+        self.written += &format!("<g {attributes}>\n");
         content(self);
-        self.0 += "</g>\n";
+        self.written += "</g>\n";
     }
 
     /// Elements of which only what lies within `view` shows.
     pub(crate) fn clipped(&mut self, view: Rect, content: impl FnOnce(&mut Self)) {
         // a nested picture clips without an id, which another figure on the same HTML page could share
         let (x, y, w, h) = (N(view.x), N(view.y), N(view.width), N(view.height));
-        self.0 += &format!(
+        self.written += &format!(
             "<svg x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" viewBox=\"{x} {y} {w} {h}\" overflow=\"hidden\">\n"
         );
         content(self);
-        self.0 += "</svg>\n";
+        self.written += "</svg>\n";
     }
 
     /// A path given by its commands; nothing if there are no commands.
     pub(crate) fn path(&mut self, commands: &str, attributes: &str) {
         if !commands.is_empty() {
-            self.0 += &format!("<path d=\"{commands}\" {attributes}/>\n");
+            self.written += &format!("<path d=\"{commands}\" {attributes}/>\n");
         }
     }
 
     pub(crate) fn rect(&mut self, r: Rect, attributes: &str) {
         let (x, y, w, h) = (N(r.x), N(r.y), N(r.width), N(r.height));
-        self.0 += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" {attributes}/>\n");
+        self.written += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" {attributes}/>\n");
     }
 
     /// A line of text whose baseline passes through (x, y).
-    pub(crate) fn text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str) {
-        match self.1 {
-            Letters::Text => self.set_text((x, y), size, anchor, text, ""),
-            Letters::Outlines => self.outlined(size, anchor, text, |dx, dy| (x + dx, y + dy)),
-        }
+    pub(crate) fn text(&mut self, place: (f64, f64), size: f64, anchor: Anchor, text: &str) {
+        self.set_text(place, size, anchor, text, Direction::Right);
     }
 
     /// The same, read from bottom to top.
-    pub(crate) fn upward_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str) {
-        let turn = || format!(" transform=\"rotate(-90 {} {})\"", N(x), N(y));
-        match self.1 {
-            Letters::Text => self.set_text((x, y), size, anchor, text, &turn()),
-            Letters::Outlines => self.outlined(size, anchor, text, |dx, dy| (x + dy, y - dx)),
+    pub(crate) fn upward_text(&mut self, place: (f64, f64), size: f64, anchor: Anchor, text: &str) {
+        self.set_text(place, size, anchor, text, Direction::Up);
+    }
+
+    fn set_text(&mut self, place: (f64, f64), size: f64, anchor: Anchor, text: &str, direction: Direction) {
+        match self.letters {
+            Letters::Text => self.as_text(place, size, anchor, text, direction),
+            Letters::Outlines => self.as_outlines(place, size, anchor, text, direction),
         }
     }
 
-    /// The text as one path, each point of which is put to its place.
-    fn outlined(&mut self, size: f64, anchor: Anchor, text: &str, at: impl Fn(f64, f64) -> (f64, f64)) {
+    /// The text as one path.
+    fn as_outlines(
+        &mut self,
+        (x, y): (f64, f64),
+        size: f64,
+        anchor: Anchor,
+        text: &str,
+        direction: Direction,
+    ) {
         let before = match anchor {
             Anchor::Start => 0.0,
             Anchor::Middle => 0.5,
             Anchor::End => 1.0,
         };
         let start = -before * width(text, size);
-        let commands = outlines(text, size, |dx, dy| at(start + dx, dy));
+        let commands = outlines(text, size, |dx, dy| match direction {
+            Direction::Right => (x + start + dx, y + dy),
+            Direction::Up => (x + dy, y - start - dx),
+        });
         self.path(&commands, &format!("aria-label=\"{}\"", escaped(text)));
     }
 
-    fn set_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str, turn: &str) {
+    /// The text as a text element.
+    fn as_text(&mut self, (x, y): (f64, f64), size: f64, anchor: Anchor, text: &str, direction: Direction) {
+        let turn = match direction {
+            Direction::Right => String::new(),
+            Direction::Up => format!(" transform=\"rotate(-90 {} {})\"", N(x), N(y)),
+        };
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
         let (x, y, size_n) = (N(x), N(y), N(size));
-        self.0 +=
+        self.written +=
             &format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size_n}\" text-anchor=\"{anchor}\"{turn}>");
         let mut height = 0.0;
         for (rise, run) in runs(text) {
             let (target, size) = rise.set(size);
             let (dy, run) = (N(height - target), escaped(&run));
             match rise {
-                Rise::Base if height == 0.0 => self.0 += &run,
-                _ => self.0 += &format!("<tspan dy=\"{dy}\" font-size=\"{}\">{run}</tspan>", N(size)),
+                Rise::Base if height == 0.0 => self.written += &run,
+                _ => self.written += &format!("<tspan dy=\"{dy}\" font-size=\"{}\">{run}</tspan>", N(size)),
             }
             height = target;
         }
-        self.0 += "</text>\n";
+        self.written += "</text>\n";
     }
 
     /// The document.
     pub(crate) fn finish(self) -> String {
-        self.0 + "</svg>\n"
+        self.written + "</svg>\n"
     }
 }
 

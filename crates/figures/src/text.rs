@@ -1,18 +1,17 @@
 //! Text as it is set: raised and lowered digits, widths, outlines, shortening.
 
 use std::fmt::Write;
+use std::sync::LazyLock;
 
 use ttf_parser::{Face, OutlineBuilder};
 
 use crate::svg::N;
 
-/// The embedded font, DejaVu Sans: it has the Greek, mathematical and superscript signs. The font is part of the program; widths are a fair guess
-/// where it could not be read.
-fn font() -> Option<Face<'static>> {
-    Face::parse(dejavu::sans::regular(), 0).ok()
-}
+/// The embedded font, DejaVu Sans: it has the Greek, mathematical and superscript signs. It is part of the program; widths are a fair guess if it could not be
+/// read.
+static FONT: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(dejavu::sans::regular(), 0).ok());
 
-/// Name of [`font`].
+/// Name of [`FONT`].
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
 /// Size of raised and lowered text relative to the text around it.
@@ -65,10 +64,10 @@ fn plain(c: char) -> (Rise, char) {
 
 /// Width of the text set in the embedded font at `size`.
 pub(crate) fn width(text: &str, size: f64) -> f64 {
-    let Some(font) = font() else { return 0.6 * size * text.chars().count() as f64 };
+    let Some(font) = &*FONT else { return 0.6 * size * text.chars().count() as f64 };
     let run = |(rise, run): (Rise, String)| {
         let (_, size) = rise.set(size);
-        size * run.chars().map(|c| advance(&font, c)).sum::<f64>()
+        size * run.chars().map(|c| advance(font, c)).sum::<f64>()
     };
     runs(text).into_iter().map(run).sum()
 }
@@ -82,7 +81,7 @@ fn advance(font: &Face<'_>, c: char) -> f64 {
 /// The outlines of the text set in the embedded font at `size`, from the origin to the right, as the commands of an SVG path; each point is put to its place by `at`.
 pub(crate) fn outlines(text: &str, size: f64, at: impl Fn(f64, f64) -> (f64, f64)) -> String {
     let mut commands = String::new();
-    let Some(font) = font() else { return commands };
+    let Some(font) = &*FONT else { return commands };
     let mut x = 0.0;
     for (rise, run) in runs(text) {
         let (height, size) = rise.set(size);
@@ -92,7 +91,7 @@ pub(crate) fn outlines(text: &str, size: f64, at: impl Fn(f64, f64) -> (f64, f64
             let glyph = font.glyph_index(c).unwrap_or_default();
             let place = |dx: f32, up: f32| at(x + scale * f64::from(dx), -height - scale * f64::from(up));
             font.outline_glyph(glyph, &mut Outline { commands: &mut commands, place });
-            x += size * advance(&font, c);
+            x += size * advance(font, c);
         }
     }
     commands
@@ -160,7 +159,7 @@ mod tests {
 
     #[test]
     fn the_font_has_the_signs_of_the_trade() {
-        let font = font().expect("embedded font");
+        let font = FONT.as_ref().expect("embedded font");
         for c in "ηρωεδαλΔΣ′″−×·…⁻₀°≤≥→µ".chars() {
             assert!(font.glyph_index(c).is_some(), "no glyph for {c}");
         }
