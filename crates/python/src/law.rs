@@ -4,6 +4,7 @@ use crate::errors::{argument, outside_table, raise};
 use frfit::c64;
 use frfit::laws::{LawKind, Parameter, ParameterKind, UnknownLawKind};
 use frfit::material::{self, Branch, Table};
+use frfit_workflow::case::law_keys;
 use numpy::{Complex64, IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -97,6 +98,11 @@ impl Law {
         let frequency_hz = reals(&frequency_hz, "frequency_hz")?;
         let values = frequency_hz.as_array().iter().map(|&f| self.0.at(f)).collect::<Result<Vec<c64>, _>>();
         values.map(|values| values.into_pyarray(py)).map_err(|error| outside_table(py, &error))
+    }
+
+    /// The keys of the law in a case file, each as `key = value`; none of a table, which has a file.
+    fn _case_file_keys(&self) -> Vec<String> {
+        law_keys(&self.0)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

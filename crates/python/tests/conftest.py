@@ -42,6 +42,12 @@ def sandwich(cli: pathlib.Path, tmp_path_factory: pytest.TempPathFactory) -> pat
     return folder
 
 
+def same_columns(ours: frfit.Identification, theirs: frfit.Identification) -> None:
+    """Bit for bit."""
+    for name, column in ours.columns().items():
+        np.testing.assert_array_equal(column, theirs.columns()[name], err_msg=name)
+
+
 class Chain:
     """Masses on springs: stiffness, mass and viscous matrices as SciPy has them."""
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.io
 import scipy.sparse as sp
-from conftest import Chain
+from conftest import Chain, same_columns
 
 import frfit
 
@@ -103,8 +103,7 @@ def test_numbers_are_the_same_bit_by_bit(chain: Chain, tmp_path, channels, keys)
     ours = identified(chain, values, std, channels, **keys)
     theirs = frfit.run_case(case_file(chain, tmp_path, values, std, channels, keys))
     assert len(ours) == len(F)
-    for name, column in ours.columns().items():
-        np.testing.assert_array_equal(column, theirs.columns()[name], err_msg=name)
+    same_columns(ours, theirs)
     for name in ("sensor_scale", "sensor_scale_std", "sensor_delay_s", "sensor_delay_s_std", "measured_response"):
         np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name), err_msg=name)
     assert (ours.smooth, ours.laws) == (theirs.smooth, theirs.laws)

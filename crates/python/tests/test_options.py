@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from conftest import Chain
+from conftest import Chain, same_columns
 from test_case_and_arrays import BOUNDS, NOMINAL, ROWS, F, case_file, measurements, records
 
 import frfit
@@ -102,8 +102,7 @@ def test_options_are_those_of_a_case_bit_for_bit(chain: Chain, tmp_path, keys, w
     theirs = frfit.run_case(path)
     asked = {"band_hz": (F[0], F[-1]), "bounds": BOUNDS, "matrix": "springs", "check": False, **options}
     ours = frfit.identify(model(chain, **of_model), measurements(values, std, ({}, {})), load=0, **asked)
-    for name, column in ours.columns().items():
-        np.testing.assert_array_equal(column, theirs.columns()[name], err_msg=name)
+    same_columns(ours, theirs)
     numbers = [[(one.name, one.value, one.std) for one in found.unknowns[0].numbers] for found in (ours, theirs)]
     assert numbers[0] == numbers[1]
     assert (ours.laws, ours.explained, ours.noise) == (theirs.laws, theirs.explained, theirs.noise)

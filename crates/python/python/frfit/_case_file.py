@@ -7,7 +7,7 @@ import os
 import pathlib
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import scipy.sparse as sp
@@ -18,11 +18,8 @@ from ._arrays import Complex, hints, refuse, row, shown, word
 from ._identify import CoarserMesh, Measurement, Unknown, arguments_of
 from ._model import Model
 
-_LAWS = {
-    "fractional": ("e0", "e1", "alpha"),
-    "zener": ("e0", "e_infinity", "tau", "alpha"),
-}
-"""The keys of a law's parameters, in their order."""
+_Files: TypeAlias = dict[str, "str | sp.csc_array"]
+"""The files of a case by their names in its folder: texts, and matrices."""
 
 
 @hints
@@ -119,22 +116,27 @@ def save_case(
             head[key] = word(said, key)
     if options["model_error"] is not None:
         head["model_error"] = options["model_error"]
-    case = _Case(pathlib.Path(folder))
-    names = {} if dofs is None else case.names(dofs, compiled.dim)
+    home = pathlib.Path(folder)
+    if home.exists() and any(home.iterdir()):
+        raise refuse("folder", "a new or empty folder", f"files in {home}")
+    files: _Files = {}
     if (mesh := options["coarser_mesh"]) is not None:
-        coarser = _Case(case.folder / "coarser")
-        # Each row has a node of its own: a sensor that counts the other way has to have a name.
-        rows = [row for row, _ in mesh["sensors"]]
-        of_rows = coarser.names({f"{row + 1}+X": row for row in rows}, mesh["model"].dim)
+        # Sensors need names here: a row alone cannot say that motion against it counts as positive.
+        of_rows = {row: f"{row + 1}+X" for row, _ in mesh["sensors"]}
         spots = [{"dof": _label(of_rows[row], sign)} for row, sign in mesh["sensors"]]
-        coarser.write(head={}, model=mesh["model"], load=mesh["load"], names=of_rows, measured=spots, identify=[])
+        coarser = _files(head={}, model=mesh["model"], load=mesh["load"], names=of_rows, measured=spots, identify=[])
+        files |= {f"coarser/{name}": content for name, content in coarser.items()}
         head["coarser_mesh"] = {
-            "file": "coarser/case.toml",
+            "file": f"coarser/{_CASE}",
             "element_ratio": mesh["element_ratio"],
             "order": mesh["order"],
         }
-    tables = [case.measurement(k, one, names) for k, one in enumerate(measured, 1)]
-    return case.write(
+    names = {} if dofs is None else _names(dofs, compiled.dim)
+    tables = []
+    for k, one in enumerate(measured, 1):
+        table, files[table["file"]] = _measurement(f"frf-{k}.csv", one, names)
+        tables.append(table)
+    files |= _files(
         head=head,
         model=compiled,
         load=force,
@@ -142,136 +144,130 @@ def save_case(
         measured=tables,
         identify=_identify(options, _common_band(measured)),
     )
-
-
-class _Case:
-    """A folder that gets a case."""
-
-    def __init__(self, folder: pathlib.Path) -> None:
-        self.folder = folder
-        folder.mkdir(parents=True, exist_ok=True)
-        if any(folder.iterdir()):
-            raise refuse("folder", "a new or empty folder", f"files in {folder}")
-
-    def names(self, dofs: Mapping[str, int], dim: int) -> dict[int, tuple[int, str]]:
-        """Node and direction of each row that has a name."""
-        expected = 'names and rows, such as {"34+Z": 97}'
-        if not isinstance(dofs, Mapping) or not dofs:
-            raise refuse("dofs", expected, shown(dofs))
-        found: dict[int, tuple[int, str]] = {}
-        for name, place in dofs.items():
-            parts = re.fullmatch(r"(\d+)[+-](R?[XYZ])", word(name, "dofs"))
-            if parts is None:
-                raise refuse("dofs", expected, shown(name))
-            at = row(place, f"dofs[{name!r}]", dim)
-            if at in found:
-                raise refuse("dofs", "one name for each row", f"two of row {at}")
-            found[at] = int(parts[1]), parts[2]
-        return found
-
-    def measurement(self, k: int, one: Any, names: Mapping[int, tuple[int, str]]) -> dict[str, Any]:
-        """The table of a measurement, whose FRF is written."""
-        sign = 1.0
-        if one.row in names:
-            spot: dict[str, Any] = {"dof": _label(names[one.row], one.sign)}
+    # The case file is the last one.
+    for name, content in files.items():
+        path = home / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(content, str):
+            path.write_text(content, encoding="utf-8")
         else:
-            # A row has no sense; turning all values round says the same.
-            spot, sign = {"row": one.row + 1}, one.sign
-        columns = [("frequency_hz", one.frequency_hz), ("re", sign * one.response.real), ("im", sign * one.response.imag)]
-        columns += [(key, getattr(one, key)) for key in ("std", "coherence") if getattr(one, key) is not None]
-        table: dict[str, Any] = {"file": self.csv(f"frf-{k}.csv", columns), **spot, "quantity": one.quantity}
-        if one.averages is not None:
-            table["averages"] = one.averages
-        for key, default in (("scale", 1.0), ("delay_s", 0.0), ("decay_per_s", 0.0)):
-            if (value := getattr(one, key)) != default:
-                table[key] = "unknown" if value is None else value
-        return table
-
-    def csv(self, name: str, columns: Sequence[tuple[str, Any]]) -> str:
-        """A table with all digits."""
-        rows = zip(*(column.tolist() for _, column in columns), strict=True)
-        lines = [",".join(name for name, _ in columns), *(",".join(map(repr, cells)) for cells in rows)]
-        (self.folder / name).write_text("\n".join(lines) + "\n")
-        return name
-
-    def write(
-        self,
-        *,
-        head: Mapping[str, Any],
-        model: _frfit.Model,
-        load: Complex,
-        names: Mapping[int, tuple[int, str]],
-        measured: Iterable[Mapping[str, Any]],
-        identify: Iterable[Mapping[str, Any]],
-    ) -> pathlib.Path:
-        """The case file, after what it reads."""
-        text = [f"{key} = {_toml(value)}" for key, value in head.items()]
-        for term in self._matrices(model):
-            text += _table("[[matrix]]", term)
-        if names:
-            nodes = (f"{at + 1},{node},{direction}" for at, (node, direction) in sorted(names.items()))
-            (self.folder / "dofs.csv").write_text("\n".join(["row,node,direction", *nodes]) + "\n")
-            text += _table("[dofs]", {"file": "dofs.csv"})
-        text += _table("[load]", self._load(load, names))
-        for table in measured:
-            text += _table("[[measurement]]", table)
-        for table in identify:
-            text += _table("[[identify]]", table)
-        path = self.folder / "case.toml"
-        path.write_text("\n".join(text) + "\n", encoding="utf-8")
-        return path
-
-    def _matrices(self, model: _frfit.Model) -> Iterable[dict[str, Any]]:
-        """The tables of the terms, whose matrices are written."""
-        _, (terms, indices, ends) = model.__reduce__()
-        for k, (name, role, law, (storage_std, loss_factor_std), values) in enumerate(terms, 1):
-            lower = sp.csc_array((values, indices, ends), shape=(model.dim, model.dim))
-            whole = sp.csc_array(lower + sp.tril(lower, -1).T)
-            whole.eliminate_zeros()
-            sp.save_npz(self.folder / f"matrix-{k}.npz", whole)
-            factor = self._factor(law, k, name)
-            if storage_std is not None:
-                factor["storage_std"] = f"{100 * storage_std!r} %"
-            if loss_factor_std is not None:
-                factor["loss_factor_std"] = loss_factor_std
-            yield {"name": name, "role": role, "file": f"matrix-{k}.npz", "factor": factor}
-
-    def _factor(self, law: Any, k: int, name: str) -> dict[str, Any]:
-        """A law with the keys of a case file."""
-        _, (kind, *parts) = law.__reduce__()
-        if kind == "constant":
-            value = complex(parts[0])
-            if not value.imag:
-                return {"storage": value.real}
-            if not value.real:
-                raise refuse(f"matrix {name!r}.factor", "a factor with a real part, as a case file has it", shown(value))
-            return {"storage": value.real, "loss_factor": value.imag / value.real}
-        if kind == "maxwell":
-            e0, branches = parts
-            return {"law": "maxwell", "e0": e0, "branches": [list(branch) for branch in branches]}
-        if kind == "table":
-            hz, values = parts
-            columns = [("frequency_hz", hz), ("storage", values.real), ("loss", values.imag)]
-            return {"table": self.csv(f"factor-{k}.csv", columns)}
-        named, *values = parts
-        return {"law": named, **dict(zip(_LAWS[named], values, strict=True))}
-
-    def _load(self, load: Complex, names: Mapping[int, tuple[int, str]]) -> dict[str, Any]:
-        """A unit force by its row or its name, any other as a file."""
-        (there,) = np.nonzero(load)
-        if there.size == 1 and load[there[0]] in (1.0, -1.0):
-            at, sign = int(there[0]), float(load[there[0]].real)
-            if at in names:
-                return {"dof": _label(names[at], sign)}
-            if sign > 0:
-                return {"row": at + 1}
-        columns = [("row", there + 1), ("re", load[there].real), ("im", load[there].imag)]
-        return {"file": self.csv("load.csv", columns)}
+            sp.save_npz(path, content)
+    return home / _CASE
 
 
-def _label(name: tuple[int, str], sign: float) -> str:
-    node, direction = name
-    return f"{node}{'-' if sign < 0 else '+'}{direction}"
+_CASE = "case.toml"
+
+
+def _names(dofs: Mapping[str, int], dim: int) -> dict[int, str]:
+    """The name of each row that has one, along its axis."""
+    expected = 'names and rows, such as {"34+Z": 97}'
+    if not isinstance(dofs, Mapping) or not dofs:
+        raise refuse("dofs", expected, shown(dofs))
+    found: dict[int, str] = {}
+    for name, place in dofs.items():
+        parts = re.fullmatch(r"(\d+)[+-](R?[XYZ])", word(name, "dofs"))
+        if parts is None:
+            raise refuse("dofs", expected, shown(name))
+        at = row(place, f"dofs[{name!r}]", dim)
+        if at in found:
+            raise refuse("dofs", "one name for each row", f"two of row {at}")
+        found[at] = f"{int(parts[1])}+{parts[2]}"
+    return found
+
+
+def _measurement(file: str, one: Any, names: Mapping[int, str]) -> tuple[dict[str, Any], str]:
+    """The table of a measurement, and its FRF."""
+    sign = 1.0
+    if one.row in names:
+        spot: dict[str, Any] = {"dof": _label(names[one.row], one.sign)}
+    else:
+        # A row alone has no sign: the values have it.
+        spot, sign = {"row": one.row + 1}, one.sign
+    columns = [("frequency_hz", one.frequency_hz), ("re", sign * one.response.real), ("im", sign * one.response.imag)]
+    columns += [(key, getattr(one, key)) for key in ("std", "coherence") if getattr(one, key) is not None]
+    table: dict[str, Any] = {"file": file, **spot, "quantity": one.quantity}
+    if one.averages is not None:
+        table["averages"] = one.averages
+    for key, default in (("scale", 1.0), ("delay_s", 0.0), ("decay_per_s", 0.0)):
+        if (value := getattr(one, key)) != default:
+            table[key] = "unknown" if value is None else value
+    return table, _csv(columns)
+
+
+def _csv(columns: Sequence[tuple[str, Any]]) -> str:
+    """A table with all digits."""
+    rows = zip(*(column.tolist() for _, column in columns), strict=True)
+    return "\n".join([",".join(name for name, _ in columns), *(",".join(map(repr, cells)) for cells in rows)]) + "\n"
+
+
+def _files(
+    *,
+    head: Mapping[str, Any],
+    model: _frfit.Model,
+    load: Complex,
+    names: Mapping[int, str],
+    measured: Iterable[Mapping[str, Any]],
+    identify: Iterable[Mapping[str, Any]],
+) -> _Files:
+    """The case file, after what it reads beside the FRFs."""
+    files: _Files = {}
+    text = [f"{key} = {_toml(value)}" for key, value in head.items()]
+    _, (terms, indices, ends) = model.__reduce__()
+    for k, (name, role, law, std, values) in enumerate(terms, 1):
+        lower = sp.csc_array((values, indices, ends), shape=(model.dim, model.dim))
+        whole = sp.csc_array(lower + sp.tril(lower, -1).T)
+        whole.eliminate_zeros()
+        file = f"matrix-{k}.npz"
+        files[file] = whole
+        keys = _law(law, f"factor-{k}.csv", f"matrix {name!r}.factor", files) + _std(*std)
+        text += [*_table("[[matrix]]", {"name": name, "role": role, "file": file}), f"factor = {{ {', '.join(keys)} }}"]
+    if names:
+        lines = (f"{at + 1},{name.replace('+', ',')}" for at, name in sorted(names.items()))
+        files["dofs.csv"] = "\n".join(["row,node,direction", *lines]) + "\n"
+        text += _table("[dofs]", {"file": "dofs.csv"})
+    text += _table("[load]", _load(load, names, files))
+    for table in measured:
+        text += _table("[[measurement]]", table)
+    for table in identify:
+        text += _table("[[identify]]", table)
+    files[_CASE] = "\n".join(text) + "\n"
+    return files
+
+
+def _law(law: _frfit.Law, file: str, name: str, files: _Files) -> list[str]:
+    """The keys of a law; those of a table have a file."""
+    _, (kind, *parts) = law.__reduce__()
+    if kind == "table":
+        hz, values = parts
+        files[file] = _csv([("frequency_hz", hz), ("storage", values.real), ("loss", values.imag)])
+        return [f"table = {_toml(file)}"]
+    if kind == "constant" and not parts[0].real and parts[0].imag:
+        raise refuse(name, "a factor with a real part, as a case file has it", shown(parts[0]))
+    return law._case_file_keys()
+
+
+def _std(storage: float | None, loss_factor: float | None) -> list[str]:
+    """The keys that say how well a factor is known."""
+    keys = {"storage_std": None if storage is None else f"{100 * storage!r} %", "loss_factor_std": loss_factor}
+    return [f"{key} = {_toml(value)}" for key, value in keys.items() if value is not None]
+
+
+def _load(load: Complex, names: Mapping[int, str], files: _Files) -> dict[str, Any]:
+    """A unit force by its row or its name, any other as a file."""
+    (there,) = np.nonzero(load)
+    if there.size == 1 and load[there[0]] in (1.0, -1.0):
+        at, sign = int(there[0]), float(load[there[0]].real)
+        if at in names:
+            return {"dof": _label(names[at], sign)}
+        if sign > 0:
+            return {"row": at + 1}
+    files["load.csv"] = _csv([("row", there + 1), ("re", load[there].real), ("im", load[there].imag)])
+    return {"file": "load.csv"}
+
+
+def _label(name: str, sign: float) -> str:
+    """The name with the sign of the motion that counts as positive."""
+    return name.replace("+", "-") if sign < 0 else name
 
 
 def _common_band(measured: Iterable[Any]) -> tuple[float, float]:

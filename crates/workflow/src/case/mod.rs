@@ -24,4 +24,4 @@ pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub use reference::reference;
 pub(crate) use sections::checked_band;
-pub use snippet::snippet;
+pub use snippet::{law_keys, snippet};

@@ -5,8 +5,14 @@ use frfit::material::Law;
 
 /// The law as a case file has it: `factor = { … }`.
 pub fn snippet(law: &Law) -> String {
+    let keys = law_keys(law);
     // No fit ends in a table.
-    let Some((kind, p)) = LawKind::of(law) else { return String::new() };
+    if keys.is_empty() { String::new() } else { format!("factor = {{ {} }}", keys.join(", ")) }
+}
+
+/// The keys of the law in `factor = { … }`, each as `key = value` with all digits; none of a table, which has a file.
+pub fn law_keys(law: &Law) -> Vec<String> {
+    let Some((kind, p)) = LawKind::of(law) else { return Vec::new() };
     let written = |(parameter, value): (Parameter, &f64)| match parameter.kind {
         ParameterKind::Exponent => format!("{} = {value}", parameter.name),
         _ => format!("{} = {value:e}", parameter.name),
@@ -22,7 +28,7 @@ pub fn snippet(law: &Law) -> String {
     } else {
         keys.extend(kind.parameters().into_iter().zip(&p).map(written));
     }
-    format!("factor = {{ {} }}", keys.join(", "))
+    keys
 }
 
 #[cfg(test)]
