@@ -198,6 +198,10 @@ const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
 /// The share of a given size that is each mode's own, and that each of three common parts has: together they are as large as was said.
 const OWN_SHARE_OF_GIVEN_SIZE: f64 = 0.5;
 
+/// Steps along the scale of an unknown, in its logarithm, and by how much −2 ln of the evidence falls with a step that is taken.
+const STEP_ALONG_SCALE: f64 = 0.15;
+const MIN_GAIN_ALONG_SCALE: f64 = 1.0;
+
 /// What is known of the sizes of errors before the data.
 #[derive(Debug, Clone, Copy)]
 struct KnownSizes {
@@ -281,6 +285,9 @@ struct Explained {
     evidence: f64,
 }
 
+/// A fit from a place.
+type Fit<'f> = &'f dyn Fn(&Fitting<'_, '_>, Place) -> Option<Explained>;
+
 /// What explains a band.
 pub(super) enum Explanation {
     /// A right model does as well as one with errors.
@@ -343,15 +350,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return right_model();
     }
     let coarse = Fitting { free_nodes: false, ..search.fitting(&rough.0, &rough.1, &search.some) };
-    // On a model that is good near the place.
-    type Fit<'f> = &'f dyn Fn(&Fitting<'_, '_>, Place) -> Option<Explained>;
-    let near = |place: Place, kinds: Kinds, fit: Fit<'_>| -> Option<Explained> {
-        let near = search.smaller(&search.points(&place), NEIGHBOURHOOD_TOL);
-        let fitting = Fitting { kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
-        fit(&fitting, place)
-    };
     let from = |place: Place, kinds: Kinds, from_above: &[f64]| {
-        near(place, kinds, &|fitting, place| data.explain(fitting, place, from_above))
+        search.near(place, kinds, &|fitting, place| data.explain(fitting, place, from_above))
     };
     let fitted = |places: Vec<Place>, kinds: Kinds| -> Option<Explained> {
         let coarse = Fitting { kinds, ..coarse };
@@ -375,7 +375,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     if !is_found(&wrong) {
         let paired = search.paired(&whole, &curves.straight(&starts[0]), &used);
         let settled: Fit<'_> = &|fitting, place| data.settled_near(fitting, place);
-        wrong = better(wrong, paired.and_then(|place| near(place, Kinds::STIFFNESS, settled)));
+        wrong = better(wrong, paired.and_then(|place| search.near(place, Kinds::STIFFNESS, settled)));
     }
     if !is_found(&wrong) {
         wrong = better(wrong, fitted(at_starts(), Kinds::MASSES));
@@ -430,7 +430,10 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
             wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
         }
     }
-    let fine = Fitting { kinds: wrong.kinds, ..fine };
+    let wrong = search.along_scales(wrong);
+    best = best.min(wrong.evidence);
+    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
+    let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
     let evidence = 0.5 * (least - best);
@@ -457,24 +460,27 @@ pub(super) fn estimate_with_laws(
     starts: &[Vec<f64>],
     for_each: ForEach<'_>,
 ) -> Option<Estimated> {
-    let from = |theta: &Vec<f64>| -> Option<(f64, Option<Estimated>)> {
+    let each = starts.iter().filter_map(|theta| {
         let search = Search {
             modes: before.modes.in_larger(model),
             factors: before.factors.clone(),
             mesh: before.mesh.clone(),
             ..Search::new(model, data, (curves, theta), theta, for_each)?
         };
-        let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
-        let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
         let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
-        let found = data.explain(&fitting, place, &ADDED_NOISE[FIRST_LEVELS..])?;
-        let evidence = found.evidence;
-        let small = fitting.are_small(&found.found.place, data.given_sizes).then_some(found);
-        let estimated = small.and_then(|found| data.posterior(&fitting, found, before.evidence));
-        Some((evidence, estimated.map(|estimated| Estimated { modes: search.modes, ..estimated })))
-    };
-    let found = starts.iter().filter_map(from);
-    found.min_by(|a, b| a.0.total_cmp(&b.0)).and_then(|(_, estimated)| estimated)
+        let explained: Fit<'_> = &|fitting, place| data.explain(fitting, place, &ADDED_NOISE[FIRST_LEVELS..]);
+        let found = search.near(place, before.kinds, explained)?;
+        Some((search, found))
+    });
+    let (search, found) = each.min_by(|a, b| a.1.evidence.total_cmp(&b.1.evidence))?;
+    let found = search.along_scales(found);
+    let near = search.smaller(&search.points(&found.found.place), NEIGHBOURHOOD_TOL);
+    let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
+    if !fitting.are_small(&found.found.place, data.given_sizes) {
+        return None;
+    }
+    let estimated = data.posterior(&fitting, found, before.evidence)?;
+    Some(Estimated { modes: search.modes.clone(), ..estimated })
 }
 
 /// Prior standard deviations of the errors of factors: what the model says, or what is usual. The stiffness matrix of an unknown has an error too.
@@ -590,6 +596,44 @@ impl<'t, 'a> Search<'t, 'a> {
         smaller.unwrap_or_else(|| (self.model.clone(), self.modes.clone()))
     }
 
+    /// A fit on a model that is good near a place.
+    fn near(&self, place: Place, kinds: Kinds, fit: Fit<'_>) -> Option<Explained> {
+        let (model, modes) = self.smaller(&self.points(&place), NEIGHBOURHOOD_TOL);
+        fit(&Fitting { kinds, ..self.fitting(&model, &modes, &self.lines) }, place)
+    }
+
+    /// The best place along the scale of each smooth unknown beside others. Errors of modes and other unknowns can stand in for that scale: the
+    /// minimum is a long valley, in which a search ends where it comes down, with errors that suit there. Elsewhere in the valley the errors are searched anew while
+    /// the unknowns are held, and then all together.
+    fn along_scales(&self, mut best: Explained) -> Explained {
+        if !self.curves.is_beside_others() {
+            return best;
+        }
+        let from = |best: &Explained, unknown: usize, by: f64| -> Option<Explained> {
+            let data = self.data;
+            let whole = Fitting { kinds: best.kinds, ..self.fitting(self.model, &self.modes, &self.lines) };
+            let place = whole.with_scale(&best.found, (unknown, by))?;
+            let centre = place[..self.curves.count()].to_vec();
+            let searched: Fit<'_> = &|fitting, place| {
+                let held = Fitting { held: true, centre: &centre, ..*fitting };
+                let errors = data.explain(&held, place, &ADDED_NOISE[FIRST_LEVELS..])?;
+                data.settled(fitting, errors.found.place, errors.sizes, errors.level)
+            };
+            let is_better = |other: &Explained| other.evidence < best.evidence - MIN_GAIN_ALONG_SCALE;
+            // Far along it the errors are those of another model.
+            let are_small = |other: &Explained| whole.are_small(&other.found.place, data.given_sizes);
+            self.near(place, best.kinds, searched).filter(|other| is_better(other) && are_small(other))
+        };
+        for unknown in self.curves.smooth() {
+            for by in [STEP_ALONG_SCALE, -STEP_ALONG_SCALE] {
+                while let Some(other) = from(&best, unknown, by) {
+                    best = other;
+                }
+            }
+        }
+        best
+    }
+
     fn fitting<'f>(&'f self, model: &'f Projection, modes: &'f Modes, lines: &'f [usize]) -> Fitting<'f, 'a> {
         Fitting {
             model,
@@ -606,6 +650,7 @@ impl<'t, 'a> Search<'t, 'a> {
             mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
             known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref(), self.curves.is_beside_others()),
             free_nodes: true,
+            held: false,
             for_each: self.for_each,
         }
     }

@@ -41,6 +41,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) known: KnownSizes,
     /// Whether shapes near nodes may have any value: far from the answer that only lets a mode vanish that is at another frequency.
     pub(super) free_nodes: bool,
+    /// Whether the unknowns stay where they are.
+    pub(super) held: bool,
     pub(super) for_each: ForEach<'t>,
 }
 
@@ -479,7 +481,8 @@ impl Fitting<'_, '_> {
         let is_own_damping = self.own().contains(&coordinate) && !self.is_frequency(coordinate);
         let shared = coordinate.checked_sub(self.curves.count()).filter(|_| coordinate < self.first_own());
         let is_common_damping = shared.is_some_and(|part| !is_frequency_part(part));
-        let is_left_out = (is_mass && !self.kinds.masses)
+        let is_left_out = (self.held && coordinate < self.curves.count())
+            || (is_mass && !self.kinds.masses)
             || (is_common_damping && self.kinds.damping == Damping::None)
             || (is_own_damping && self.kinds.damping != Damping::Own);
         !is_left_out
@@ -666,6 +669,27 @@ impl Fitting<'_, '_> {
                 (matrix[i * n + i], slope[i]) = (1.0, by);
             }
         }
+    }
+
+    /// From a minimum to where a smooth unknown as a whole is exp(by) times as large, and all else where it fits best beside that with errors of usual sizes: of
+    /// the mean s = cᵀp of its logarithms at the knots, Δp = C c Δs/(cᵀCc). What all modes have in common stays: together with the other unknowns it
+    /// can stand in for any scale.
+    pub(super) fn with_scale(&self, from: &Minimum, (unknown, by): (usize, f64)) -> Option<Place> {
+        let n = self.count();
+        let mut whole = self.precision(&Sizes::prior(self.known).of_kinds(self.kinds, self.known));
+        whole.iter_mut().zip(&from.normal.information).for_each(|(all, of_data)| *all += of_data);
+        self.in_common(true).for_each(|i| whole[i * n + i] = NEGLIGIBLE_STD.powi(-2));
+        let mut mean = vec![0.0; n];
+        self.curves.scale(&mut mean, unknown, 1.0);
+        let knots: f64 = mean.iter().sum();
+        mean.iter_mut().for_each(|share| *share /= knots);
+        let mut along = mean.clone();
+        Cholesky::new(n, &whole).ok()?.solve(&mut along);
+        let variance: f64 = mean.iter().zip(&along).map(|(a, b)| a * b).sum();
+        let mut place: Place =
+            from.place.iter().zip(&along).map(|(place, along)| place + by / variance * along).collect();
+        self.curves.keep_within_bounds(&mut place);
+        Some(place)
     }
 
     /// Levenberg and Marquardt's method from a place.
