@@ -1,4 +1,4 @@
-//! Where solutions are searched: near the nominal, and in the whole of the bounds, or far from the nominal where there are none.
+//! Where solutions are searched: near the nominal, and in the whole of the bounds.
 
 use super::joint::answered_pilots;
 use super::neighbourhoods::Neighbourhoods;
@@ -10,7 +10,7 @@ use crate::identify::options::Options;
 use crate::model::ModelAt;
 use crate::response::Work;
 
-/// Options to look near the nominal, and in the whole of the bounds, or far from the nominal where there are none.
+/// Options to look near the nominal, and in the whole of the bounds.
 pub(super) fn near_and_far(options: &Options) -> [Options; 2] {
     [*options, Options { whole_box: true, ..*options }]
 }
@@ -34,7 +34,8 @@ pub(super) fn near_or_far<'a, 'o, T>(
     mut run: impl FnMut(&Options, &mut Option<Neighbourhoods<'a, 'o>>) -> (BandOutcome, T),
 ) -> (BandOutcome, T) {
     let mut found = run(near, reduced);
-    let wider = near.selection == Selection::Joint && !near.whole_box;
+    let wider =
+        near.selection == Selection::Joint && band.unknown.bounds.storage.is_some() && !near.whole_box;
     if !wider || 2 * found.0.answered() >= found.0.lines.len() {
         return found;
     }
