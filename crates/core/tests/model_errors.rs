@@ -1,6 +1,6 @@
 //! Errors of the model (B-11): truths that come from another mesh, another neighbour or another mass, by direct solves.
 
-use crate::common::{Band, Case, Setup, sandwich};
+use crate::common::{Band, Case, Setup, sandwich, term};
 use crate::noise::Noise as Dice;
 use crate::tier::{is_long, of_tier};
 use frfit::c64;
@@ -389,12 +389,7 @@ fn a_smooth_core_beside_skins_is_searched_along_its_scale() {
     let mut spring = Triplets::new(strip.model.dim());
     let tip = strip.experiment.sensors[0].row;
     spring.add(tip, tip, 1.0);
-    let spring = Term {
-        name: "spring".into(),
-        role: Role::Stiffness,
-        matrix: spring.assemble(),
-        factor: Law::Constant(c64::new(40.0, 0.0)),
-    };
+    let spring = term("spring", Role::Stiffness, spring.assemble(), c64::new(40.0, 0.0));
     let terms = strip.model.terms().iter().cloned().chain([spring]).collect();
     let strip = Case { model: DynamicStiffness::new(terms).unwrap(), ..strip };
     let measured = Measured::on(&strip, &truth, linear_hz(20.0, 1500.0, 80), 0.005, 5);
@@ -450,14 +445,9 @@ fn sprung(elements: usize, factors: [c64; 3], sensors: &[f64]) -> (DynamicStiffn
     [0.0, 0.8].into_iter().for_each(|x| springs.add(row(x), row(x), 1.0));
     let matrices = [beam.stiffness[0].clone(), springs.assemble(), beam.mass[0].clone()];
     let names = [("beam", Role::Stiffness), ("springs", Role::Stiffness), ("mass", Role::Mass)];
-    let term = |(((name, role), matrix), factor): (((&str, Role), _), c64)| Term {
-        name: name.into(),
-        role,
-        matrix,
-        factor: Law::Constant(factor),
-    };
-    let model =
-        DynamicStiffness::new(names.into_iter().zip(matrices).zip(factors).map(term).collect()).unwrap();
+    let terms = names.into_iter().zip(matrices).zip(factors);
+    let terms = terms.map(|(((name, role), matrix), factor)| term(name, role, matrix, factor));
+    let model = DynamicStiffness::new(terms.collect()).unwrap();
     let sensor = |x: f64| Sensor { row: row(x), sign: 1.0 };
     let dim = model.dim();
     (model, Experiment::driven_at(dim, sensor(0.0), sensors.iter().map(|&x| sensor(x)).collect()))

@@ -385,7 +385,6 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         let upwards = starts.iter().filter_map(|start| data.upwards(&stiffness, start)).collect();
         wrong = better(wrong, fitted(upwards, Kinds::STIFFNESS));
     }
-    let used = |line: usize, sensor: usize| data.sigma[line][sensor].is_finite();
     let mut scaled: Vec<(f64, Place)> = if is_found(&wrong) {
         Vec::new()
     } else {
@@ -430,9 +429,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
             wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
         }
     }
-    let wrong = search.along_scales(wrong);
+    let (near, wrong) = search.along_scales(near, wrong);
     best = best.min(wrong.evidence);
-    let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
@@ -467,14 +465,14 @@ pub(super) fn estimate_with_laws(
             mesh: before.mesh.clone(),
             ..Search::new(model, data, (curves, theta), theta, for_each)?
         };
+        let near = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
+        let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
         let place: Place = theta.iter().chain(&before.place[before.curves.count()..]).copied().collect();
-        let explained: Fit<'_> = &|fitting, place| data.explain(fitting, place, &ADDED_NOISE[FIRST_LEVELS..]);
-        let found = search.near(place, before.kinds, explained)?;
-        Some((search, found))
+        let found = data.explain(&fitting, place, &ADDED_NOISE[FIRST_LEVELS..])?;
+        Some((search, near, found))
     });
-    let (search, found) = each.min_by(|a, b| a.1.evidence.total_cmp(&b.1.evidence))?;
-    let found = search.along_scales(found);
-    let near = search.smaller(&search.points(&found.found.place), NEIGHBOURHOOD_TOL);
+    let (search, near, found) = each.min_by(|a, b| a.2.evidence.total_cmp(&b.2.evidence))?;
+    let (near, found) = search.along_scales(near, found);
     let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     if !fitting.are_small(&found.found.place, data.given_sizes) {
         return None;
@@ -604,14 +602,18 @@ impl<'t, 'a> Search<'t, 'a> {
 
     /// The best place along the scale of each smooth unknown beside others. Errors of modes and other unknowns can stand in for that scale: the
     /// minimum is a long valley, in which a search ends where it comes down, with errors that suit there. Elsewhere in the valley the errors are searched anew while
-    /// the unknowns are held, and then all together.
-    fn along_scales(&self, mut best: Explained) -> Explained {
+    /// the unknowns are held, and then all together. With a model that is good near the place: the same where that is the same.
+    fn along_scales(
+        &self,
+        near: (Projection, Modes),
+        mut best: Explained,
+    ) -> ((Projection, Modes), Explained) {
         if !self.curves.is_beside_others() {
-            return best;
+            return (near, best);
         }
+        let (data, begun) = (self.data, best.evidence);
+        let whole = Fitting { kinds: best.kinds, ..self.fitting(self.model, &self.modes, &self.lines) };
         let from = |best: &Explained, unknown: usize, by: f64| -> Option<Explained> {
-            let data = self.data;
-            let whole = Fitting { kinds: best.kinds, ..self.fitting(self.model, &self.modes, &self.lines) };
             let place = whole.with_scale(&best.found, (unknown, by))?;
             let centre = place[..self.curves.count()].to_vec();
             let searched: Fit<'_> = &|fitting, place| {
@@ -631,7 +633,10 @@ impl<'t, 'a> Search<'t, 'a> {
                 }
             }
         }
-        best
+        let has_moved = best.evidence < begun;
+        let near =
+            if has_moved { self.smaller(&self.points(&best.found.place), NEIGHBOURHOOD_TOL) } else { near };
+        (near, best)
     }
 
     fn fitting<'f>(&'f self, model: &'f Projection, modes: &'f Modes, lines: &'f [usize]) -> Fitting<'f, 'a> {
@@ -879,7 +884,7 @@ impl<'a> Measured<'_, 'a> {
                 bend: right.sizes.bend,
             };
             let precision = whole.precision(&sizes);
-            let sum: Vec<f64> = normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
+            let sum = normal.with_prior(&precision);
             let off = |j: usize| place[j] - whole.expected(j);
             let pull = |i: usize| -> f64 { of_right.iter().map(|&j| precision[i * n + j] * off(j)).sum() };
             let slope: Vec<f64> = (0..n).map(|i| normal.gradient[i] - pull(i)).collect();
@@ -948,8 +953,7 @@ impl<'a> Measured<'_, 'a> {
             let found = fitting.descend(place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
             place = found.place.clone();
             let n = fitting.count();
-            let whole: Vec<f64> =
-                found.normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
+            let whole = found.normal.with_prior(&precision);
             let factor = Cholesky::new(n, &whole).ok()?;
             let inverse = factor.inverse();
             let variance = |i: usize| inverse[i * n + i];
@@ -1057,7 +1061,7 @@ impl<'a> Measured<'_, 'a> {
         let precision = fitting.precision(&sizes.with_dependent_shapes(fitting.sensors()));
         let sigma = self.sigma_beside(fitting.lines, level, rest);
         let found = fitting.descend(found.place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
-        let whole: Vec<f64> = found.normal.information.iter().zip(&precision).map(|(a, b)| a + b).collect();
+        let whole = found.normal.with_prior(&precision);
         let inverse = Cholesky::new(n, &whole).ok()?.inverse();
         let errors = fitting.errors(&found.place);
         let first = fitting.first_own();

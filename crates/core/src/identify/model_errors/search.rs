@@ -143,6 +143,13 @@ pub(super) struct Normal {
     pub(super) information: Vec<f64>,
 }
 
+impl Normal {
+    /// JᵀJ and the prior's precision together, n × n.
+    pub(super) fn with_prior(&self, precision: &[f64]) -> Vec<f64> {
+        self.information.iter().zip(precision).map(|(data, prior)| data + prior).collect()
+    }
+}
+
 /// A minimum.
 pub(super) struct Minimum {
     pub(super) place: Place,
@@ -676,8 +683,8 @@ impl Fitting<'_, '_> {
     /// can stand in for any scale.
     pub(super) fn with_scale(&self, from: &Minimum, (unknown, by): (usize, f64)) -> Option<Place> {
         let n = self.count();
-        let mut whole = self.precision(&Sizes::prior(self.known).of_kinds(self.kinds, self.known));
-        whole.iter_mut().zip(&from.normal.information).for_each(|(all, of_data)| *all += of_data);
+        let usual = Sizes::prior(self.known).of_kinds(self.kinds, self.known);
+        let mut whole = from.normal.with_prior(&self.precision(&usual));
         self.in_common(true).for_each(|i| whole[i * n + i] = NEGLIGIBLE_STD.powi(-2));
         let mut mean = vec![0.0; n];
         self.curves.scale(&mut mean, unknown, 1.0);
@@ -712,7 +719,7 @@ impl Fitting<'_, '_> {
         let (mut of_prior, mut pull) = prior(&place);
         let (mut damping, mut refused) = (1e-4, 0);
         for _ in 0..steps {
-            let mut matrix: Vec<f64> = normal.information.iter().zip(precision).map(|(a, b)| a + b).collect();
+            let mut matrix = normal.with_prior(precision);
             (0..n).for_each(|i| matrix[i * n + i] *= 1.0 + damping);
             let mut slope: Vec<f64> = normal.gradient.iter().zip(&pull).map(|(g, p)| g - p).collect();
             let Some(step) = self.step(&place, &mut matrix, &mut slope) else {
