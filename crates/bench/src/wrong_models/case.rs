@@ -122,6 +122,27 @@ pub enum Meshes {
     Two,
 }
 
+/// What a user has, and what he asks for.
+#[derive(Debug, Clone, Copy)]
+pub struct Setting {
+    /// His meshes.
+    pub meshes: Meshes,
+    /// What is unknown to him.
+    pub unknowns: Unknowns,
+    /// By which factor his nominal value is off at most, to either side; `None` where it is 0.6 to 1.4 times the true one.
+    pub nominal_within: Option<f64>,
+}
+
+impl Setting {
+    /// A single mesh, and a nominal value that is nearly right.
+    pub fn of(unknowns: Unknowns) -> Self {
+        Self { meshes: Meshes::One, unknowns, nominal_within: None }
+    }
+}
+
+/// Nominal over true factor.
+const NOMINAL_RATIO: [f64; 2] = [0.6, 1.4];
+
 /// Elements of the model for one of the coarser mesh, along each side.
 const FINER: usize = 2;
 
@@ -151,7 +172,8 @@ impl Case {
     ///
     /// # Errors
     /// Where a model cannot be made or solved: a fault of this benchmark.
-    pub fn draw(seed: u64, index: u64, meshes: Meshes, unknowns: Unknowns) -> Result<Self, Failure> {
+    pub fn draw(seed: u64, index: u64, setting: Setting) -> Result<Self, Failure> {
+        let Setting { meshes, unknowns, nominal_within } = setting;
         let class = Class::of(index);
         let mut dice = Dice::new(seed, index);
         let kind = class.kind_of(index, unknowns).ok_or("nothing that is known can be wrong")?;
@@ -175,7 +197,10 @@ impl Case {
         }
         let about = Self::band(&structure, modes, &mut dice)?;
         let truth = structure.draw_law(about.middle_hz, &mut dice);
-        let ratio = dice.between(0.6, 1.4);
+        let ratio = match nominal_within {
+            Some(factor) => dice.log_between(1.0 / factor, factor),
+            None => dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]),
+        };
         let [driven, sensors @ ..] = about.draw_positions(&mut dice);
         let sensors: Vec<[f64; 3]> = sensors.into_iter().flatten().collect();
         let driven = driven.ok_or("no node moves")?;
@@ -502,7 +527,7 @@ mod tests {
             matches!(Class::of(*index).kind_of(*index, Unknowns::One), Some(Kind::Beam | Kind::SprungBeam))
         };
         let index = indices.find(is_beam).unwrap();
-        Case::draw(1, index, Meshes::One, Unknowns::One).unwrap()
+        Case::draw(1, index, Setting::of(Unknowns::One)).unwrap()
     }
 
     #[test]

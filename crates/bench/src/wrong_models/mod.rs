@@ -23,8 +23,7 @@ pub mod structure;
 /// Why a case could not be made: a fault of the benchmark, never a result.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-use case::{Case, Meshes, Way};
-use fault::Unknowns;
+use case::{Case, Setting, Way};
 use frfit::identify::Options;
 use report::{Run, Tried};
 
@@ -36,11 +35,11 @@ pub fn tried(
     seed: u64,
     index: u64,
     ways: &[Way],
-    meshes: Meshes,
+    setting: Setting,
     options: &Options,
 ) -> Result<Tried, Failure> {
     let run = || {
-        let case = Case::draw(seed, index, meshes, Unknowns::of(ways))?;
+        let case = Case::draw(seed, index, setting)?;
         let identified = |&way: &Way| {
             let (found, seconds) = case.identify(way, options)?;
             Ok(Run::new(way, &found, score::judged(&case, &found)?, seconds))

@@ -1,9 +1,11 @@
 //! A zoo of wrong models: how far the modulus is off where the model is not the structure that was measured, and whether error bars and statuses say so.
 //!
-//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes one|finer|two]`: so many cases (default 40) of a seed (default 1), of all classes
+//! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes one|finer|two]
+//! [--nominal-within FACTOR]`: so many cases (default 40) of a seed (default 1), of all classes
 //! and ways or of one; with `--case` the case K alone, line by line. With `--meshes finer` the model has elements of half the size, with
 //! `two` also what would be the model as a coarser mesh beside it. With `--way several` all stiffnesses of a case are unknown: of orthotropic plates, sandwiches and beams
-//! on springs; with `--way several-smooth` the core of a sandwich is smooth. Case K of a seed is always the same, and its class is the K-th, counted round.
+//! on springs; with `--way several-smooth` the core of a sandwich is smooth. With `--nominal-within 10` the nominal value is off by up to ten times to either side, not
+//! by 0.6 to 1.4. Case K of a seed is always the same, and its class is the K-th, counted round.
 //!
 //! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
@@ -11,7 +13,7 @@
 use frfit::identify::Options;
 use frfit_bench::cases::{Cases, number};
 use frfit_bench::machine;
-use frfit_bench::wrong_models::case::{Meshes, Way};
+use frfit_bench::wrong_models::case::{Meshes, Setting, Way};
 use frfit_bench::wrong_models::fault::{Class, Unknowns};
 use frfit_bench::wrong_models::report::{LEGEND, csv, described, errors, lines, markdown};
 use frfit_bench::wrong_models::{Failure, tried};
@@ -25,13 +27,22 @@ struct Arguments {
     csv: Option<String>,
     case: Option<u64>,
     meshes: Meshes,
+    nominal_within: Option<f64>,
 }
 
 impl Arguments {
     fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Failure> {
         let ways = Way::OF_ONE.to_vec();
-        let mut read =
-            Self { cases: 40, seed: 1, class: None, ways, csv: None, case: None, meshes: Meshes::One };
+        let mut read = Self {
+            cases: 40,
+            seed: 1,
+            class: None,
+            ways,
+            csv: None,
+            case: None,
+            meshes: Meshes::One,
+            nominal_within: None,
+        };
         let mut positions = 0;
         while let Some(word) = words.next() {
             if !word.starts_with("--") {
@@ -49,6 +60,7 @@ impl Arguments {
                 "--way" => read.ways = vec![value.parse()?],
                 "--csv" => read.csv = Some(value),
                 "--case" => read.case = Some(number(&value)?),
+                "--nominal-within" => read.nominal_within = Some(factor(&value)?),
                 "--meshes" => {
                     read.meshes = match value.as_str() {
                         "one" => Meshes::One,
@@ -60,13 +72,19 @@ impl Arguments {
                     }
                 }
                 _ => {
-                    let expected = "--class, --way, --csv, --case or --meshes";
+                    let expected = "--class, --way, --csv, --case, --nominal-within or --meshes";
                     return Err(format!("expected {expected}, found {word}").into());
                 }
             }
         }
         Ok(read)
     }
+}
+
+/// A factor of more than one.
+fn factor(word: &str) -> Result<f64, Failure> {
+    let factor = word.parse().ok().filter(|factor| *factor > 1.0 && f64::is_finite(*factor));
+    factor.ok_or_else(|| format!("--nominal-within: expected a number above 1, found {word:?}").into())
 }
 
 fn main() -> Result<(), Failure> {
@@ -82,7 +100,8 @@ fn main() -> Result<(), Failure> {
             || (class.is_none_or(|class| own == class) && !own.kinds(unknowns).is_empty())
     };
     let indices: Vec<u64> = (first..).filter(is_asked).take(count).collect();
-    let one = |index| tried(*seed, index, ways, arguments.meshes, &options);
+    let setting = Setting { meshes: arguments.meshes, unknowns, nominal_within: arguments.nominal_within };
+    let one = |index| tried(*seed, index, ways, setting, &options);
     let all = Cases::try_all(&indices, one, described)?;
     if let Some(file) = &arguments.csv {
         std::fs::write(file, csv(&all.tried))?;
