@@ -507,6 +507,30 @@ fn a_nominal_that_is_right_stays() {
     }
 }
 
+/// Nothing bounds the modulus of a rod, and its nominal is up to ten times off: nearly all of the modulus is found, and nothing else.
+#[test]
+fn a_nominal_that_is_far_off_needs_no_bounds() {
+    let mut case = bar(60);
+    let truth = case.parameter.nominal.clone();
+    let frequency_hz = linear_hz(case.band_hz[0], case.band_hz[1], of_tier(40, 200));
+    let u = measured(&case, &frequency_hz);
+    for &off in of_tier([0.1, 10.0].as_slice(), &[0.1, 0.2, 5.0, 10.0]) {
+        case.parameter.nominal = truth.scaled(off);
+        let band = identify(&case, &frequency_hz, &u, &Setup::default());
+        let ok: Vec<&Line> = band.lines.iter().filter(|line| line.status == Status::Ok).collect();
+        // Far from the nominal some roots are lost to roundoff where the response is that of a spring.
+        assert!(
+            10 * ok.len() >= 9 * band.lines.len(),
+            "× {off}: {} of {} are ok",
+            ok.len(),
+            band.lines.len()
+        );
+        for line in ok {
+            assert!(nearest(line, truth.at(line.frequency_hz).unwrap()) < 1e-6, "× {off}: {line:?}");
+        }
+    }
+}
+
 #[test]
 fn a_thickness_is_found_too() {
     let mut case = thickness();

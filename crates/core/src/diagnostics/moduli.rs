@@ -87,7 +87,7 @@ impl Parametrization {
             let nominal: Vec<c64> =
                 frequency_hz.iter().map(|&f| unknown.nominal.at(f)).collect::<Result<_, _>>()?;
             let range = match unknown.dependence {
-                Dependence::Factor(_) => unknown.box_about(nominal[middle], options.box_ratio()),
+                Dependence::Factor(_) => options.search_box(unknown, nominal[middle]),
                 Dependence::Powers(_) => Some(unknown.range(nominal[middle])),
             };
             let is_there = nominal.iter().all(|p| p.re > 0.0);

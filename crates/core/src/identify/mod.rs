@@ -35,6 +35,7 @@ mod problem_error;
 mod rational;
 mod reduced_band;
 mod several;
+mod shown_modes;
 mod thinned;
 mod uncertainty;
 mod unknown;

@@ -1,6 +1,8 @@
 //! How to identify.
 
 use super::choice::{Method, Reduction, Selection, UnknownChoice};
+use super::unknown::Unknown;
+use crate::c64;
 use crate::with_fields::with_fields;
 use std::fmt;
 use std::str::FromStr;
@@ -39,6 +41,8 @@ pub struct Options {
     /// Whether a joint selection on the subspace looks for all solutions at every frequency, however many there are. Default false: at some hundred of a dense
     /// band, and follows them in between.
     pub everywhere: bool,
+    /// The factor on the nominal value about which answers are searched.
+    pub(super) about: f64,
 }
 
 impl Default for Options {
@@ -54,6 +58,7 @@ impl Default for Options {
             reject_outliers: true,
             everywhere: false,
             model_errors: ModelErrors::default(),
+            about: 1.0,
         }
     }
 }
@@ -205,9 +210,9 @@ impl Options {
         Ok(())
     }
 
-    /// How many times larger or smaller than the nominal value answers are searched, within the bounds.
-    pub(crate) fn box_ratio(&self) -> f64 {
-        if self.whole_box { WHOLE_BOX_RATIO } else { NEAR_BOX_RATIO }
+    /// [low, high] of the real part in which answers are searched; `None` where nothing bounds it.
+    pub(crate) fn search_box(&self, unknown: &Unknown, nominal: c64) -> Option<[f64; 2]> {
+        unknown.box_about(self.about * nominal, if self.whole_box { WHOLE_BOX_RATIO } else { NEAR_BOX_RATIO })
     }
 }
 

@@ -150,13 +150,14 @@ impl Unknown {
         Some(Parameter { members: members?, nominal: self.nominal.clone(), multiplies })
     }
 
-    /// [low, high] of the real part in which it is searched about a nominal value: the bounds, as far as they are within a ratio of it. `None` where nothing
-    /// bounds it.
+    /// [low, high] of the real part in which it is searched about a nominal value: the bounds, or what a nominal is off at most, as far as they are within a ratio of
+    /// it. `None` where nothing bounds it.
     pub(crate) fn box_about(&self, nominal: c64, ratio: f64) -> Option<[f64; 2]> {
         if nominal.re <= 0.0 {
             return self.bounds.storage;
         }
-        let [low, high] = self.bounds.storage.unwrap_or([0.0, f64::INFINITY]);
+        let [low, high] =
+            self.bounds.storage.unwrap_or([nominal.re / MAX_BOX_RATIO, nominal.re * MAX_BOX_RATIO]);
         // A nominal outside the bounds: the box is where they begin.
         let middle = nominal.re.clamp(low, high);
         Some([low.max(middle / ratio), high.min(middle * ratio)])
@@ -182,6 +183,9 @@ impl Unknown {
         }
     }
 }
+
+/// Without bounds a nominal modulus is off by no more than this factor: more is a mistaken unit.
+const MAX_BOX_RATIO: f64 = 30.0;
 
 /// By how much a geometric parameter may be off.
 const MAX_DIMENSION_RATIO: f64 = 2.0;

@@ -59,24 +59,22 @@ const LOG_FACTOR_STEP: f64 = 0.01;
 /// Of each pair which of the model and which of the measurement.
 type Partners = Vec<(usize, usize)>;
 
+/// Pairs at the factor with which they fit best.
+#[derive(Debug, Default)]
+pub(crate) struct Best {
+    /// By how much they fit better than none.
+    pub(crate) gain: f64,
+    pub(crate) log_factor: f64,
+    pub(crate) pairs: Partners,
+}
+
 /// The pairs that together differ least, by frequency, size and shape; a common factor on the stiffness that may be off does not count, nor does
 /// the scale of the measurement.
 ///
 /// # Limits
 /// Of modes so close that they exchange their shapes with a small change of the structure, either may be the other's partner.
 pub fn paired(model: &[PairedShape], measured: &[PairedShape]) -> Pairing {
-    let steps = (MAX_LOG_FACTOR / LOG_FACTOR_STEP).round() as i32;
-    // From none at all outwards: of two that pair as well the smaller change.
-    let mut factors: Vec<f64> = (-steps..=steps).map(|k| f64::from(k) * LOG_FACTOR_STEP).collect();
-    factors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let mut best: Option<(f64, f64, Partners)> = None;
-    for log_factor in factors {
-        let (gain, pairs) = with_factor(model, measured, log_factor);
-        if best.as_ref().is_none_or(|(most, ..)| gain > *most) {
-            best = Some((gain, log_factor, pairs));
-        }
-    }
-    let (_, log_factor, mut pairs) = best.unwrap_or((0.0, 0.0, Vec::new()));
+    let Best { log_factor, mut pairs, .. } = best(model, measured, MAX_LOG_FACTOR);
     pairs.sort_by_key(|&(_, measured)| measured);
     let is_crossing = |&(i, j): &(usize, usize)| {
         let order = |a: f64, b: f64| a.partial_cmp(&b).unwrap_or(Ordering::Equal);
@@ -99,6 +97,22 @@ pub fn paired(model: &[PairedShape], measured: &[PairedShape]) -> Pairing {
         }
     };
     Pairing { pairs: pairs.iter().map(pair).collect(), stiffness_factor: log_factor.exp() }
+}
+
+/// The factor with which modes pair best, in a range to either side of one.
+pub(crate) fn best(model: &[PairedShape], measured: &[PairedShape], max_log_factor: f64) -> Best {
+    let steps = (max_log_factor / LOG_FACTOR_STEP).round() as i32;
+    // From none at all outwards: of two that pair as well the smaller change.
+    let mut factors: Vec<f64> = (-steps..=steps).map(|k| f64::from(k) * LOG_FACTOR_STEP).collect();
+    factors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let mut best = Best::default();
+    for log_factor in factors {
+        let (gain, pairs) = with_factor(model, measured, log_factor);
+        if gain > best.gain {
+            best = Best { gain, log_factor, pairs };
+        }
+    }
+    best
 }
 
 /// MAC of several sensors.

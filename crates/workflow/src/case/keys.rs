@@ -769,7 +769,7 @@ pub(super) static BOUNDS: Section = Section {
             "storage",
             "[low, high]",
             "none",
-            "Limits of E′, or of a real factor. frfit first searches within a factor of four of the nominal value.",
+            "Limits of E′, or of a real factor. frfit first searches within a factor of four of the nominal value, and about another one where the natural frequencies show that.",
         ),
         key("loss_factor", "[low, high]", "none", "Limits of η."),
     ],

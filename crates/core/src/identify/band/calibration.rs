@@ -56,17 +56,18 @@ pub(in crate::identify) fn identify_band_scaled<'a>(
     context: Context<'_>,
 ) -> Result<(BandOutcome, Vec<Calibration>), OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let boxes = on_subspace(options);
-    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, &boxes[0], context);
-    let (outcome, found) =
-        near_or_far((band, &at), &boxes, &mut reduced, false, context, |options, reduced| {
+    let options = &on_subspace(options);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, options, context);
+    let (outcome, found, options) =
+        near_or_far((band, &at), options, &mut reduced, false, context, |options, reduced| {
             with_scales(band, &at, reduced, unknown, options, context)
         });
+    let options = &options;
     let (outcome, found) = match (reduced.as_mut(), found) {
         (Some(reduced), Some(found)) => {
             let first: Vec<Channel> = found.iter().map(Channel::of).collect();
             let scaled = Scaled::new(band, &first);
-            let outcome = correct((&scaled.band(band), unknown), &at, outcome, reduced, &boxes[0], context);
+            let outcome = correct((&scaled.band(band), unknown), &at, outcome, reduced, options, context);
             let errors = outcome.model_errors.as_ref();
             let left = errors.map(|errors| errors.calibrations().into_iter().zip(&first));
             let better = left.map(|left| left.map(|(left, first)| left.after(first)).collect());

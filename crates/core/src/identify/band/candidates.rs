@@ -276,7 +276,7 @@ impl Fit<'_> {
         };
         factor.is_finite()
             && wide(
-                self.unknown.box_about(self.nominal, self.options.box_ratio()),
+                self.options.search_box(self.unknown, self.nominal),
                 factor.re,
                 START_BOX_MARGIN * factor.norm(),
             )

@@ -219,9 +219,8 @@ fn shaped(
 ) -> Option<(Vec<Channel>, f64)> {
     let which = spread(band.frequency_hz);
     let nominal = at[at.len() / 2].parameters[0].nominal;
-    let [low, high] = band
-        .unknown
-        .box_about(nominal, options.box_ratio())
+    let [low, high] = options
+        .search_box(band.unknown, nominal)
         .filter(|[low, high]| 0.0 < *low && low < high && high.is_finite())?;
     let ratio = |k: usize| low * (high / low).powf(k as f64 / (SHAPE_FACTORS - 1) as f64) / nominal.re;
     let tried = map(context.for_each, SHAPE_FACTORS, |k| {

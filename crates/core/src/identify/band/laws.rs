@@ -95,19 +95,20 @@ pub(in crate::identify) fn identify_laws<'a>(
     let calibrated = vec![ChannelUnknowns::default(); band.experiment.sensors.len()];
     let unknown = if unknown.is_empty() { &calibrated } else { unknown };
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let boxes = on_subspace(options);
-    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, &boxes[0], context);
+    let options = &on_subspace(options);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, options, context);
     let is_calibrated = |channel: &ChannelUnknowns| !channel.any();
     let all_calibrated = unknown.iter().all(is_calibrated);
-    let (mut free, Begin { mut channels, ratio }) =
-        near_or_far((band, &at), &boxes, &mut reduced, all_calibrated, context, |options, reduced| {
+    let (mut free, Begin { mut channels, ratio }, options) =
+        near_or_far((band, &at), options, &mut reduced, all_calibrated, context, |options, reduced| {
             at_scales(band, &at, reduced, unknown, options, context)
         });
+    let options = &options;
     // Where no channel says how large the response is, errors and scales stand in for one another.
     let any_calibrated = unknown.iter().any(is_calibrated);
     if let Some(reduced) = reduced.as_mut().filter(|_| any_calibrated) {
         let scaled = Scaled::new(band, &channels);
-        free = correct((&scaled.band(band), unknown), &at, free, reduced, &boxes[0], context);
+        free = correct((&scaled.band(band), unknown), &at, free, reduced, options, context);
         if let Some(errors) = &free.model_errors {
             let left = errors.calibrations();
             channels =
@@ -176,11 +177,11 @@ pub(in crate::identify) fn identify_laws<'a>(
         let spent = free.work;
         let errors = free.model_errors.take().zip(whole.as_mut());
         free = match errors {
-            Some((errors, whole)) => on_corrected(&view, &at, whole, (errors, &free), &boxes[0], context),
+            Some((errors, whole)) => on_corrected(&view, &at, whole, (errors, &free), options, context),
             None => BandOutcome {
                 leverage: free.leverage,
                 other_model: free.other_model,
-                ..joint::identify(&view, &at, whole.as_mut(), &[], &boxes[0], context)
+                ..joint::identify(&view, &at, whole.as_mut(), &[], options, context)
             },
         };
         free.work += spent;

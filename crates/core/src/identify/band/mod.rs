@@ -6,6 +6,7 @@ mod channels;
 mod continuation;
 mod corrected;
 mod exploration_grid;
+mod far_nominal;
 mod fit;
 mod initial_calibration;
 mod joint;
@@ -46,7 +47,7 @@ use crate::material::OutsideTable;
 use crate::model::ModelAt;
 use crate::subspace::Subspace;
 use neighbourhoods::Neighbourhoods;
-use search_box::{near_and_far, near_or_far};
+use search_box::near_or_far;
 
 /// Identifies the first parameter at every frequency of a band.
 ///
@@ -64,17 +65,18 @@ pub(super) fn identify_band<'a>(
     context: Context<'_>,
 ) -> Result<BandOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let boxes = near_and_far(options);
     let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, options, context);
-    let (found, ()) = near_or_far((band, &at), &boxes, &mut reduced, true, context, |options, reduced| {
-        (identify_at_all(band, &at, reduced.as_mut(), options, context), ())
-    });
+    let (found, (), options) =
+        near_or_far((band, &at), options, &mut reduced, true, context, |options, reduced| {
+            (identify_at_all(band, &at, reduced.as_mut(), options, context), ())
+        });
+    let options = &options;
     // A model that is answered for as it is has no modes at hand: they are those of a reduced one.
     let wanted = options.selection == Selection::Joint && options.reduction == Reduction::Auto;
-    let new = || wanted.then(|| Neighbourhoods::on_trained(band, &at, trained, &boxes[0], context)).flatten();
+    let new = || wanted.then(|| Neighbourhoods::on_trained(band, &at, trained, options, context)).flatten();
     let mut reduced = reduced.or_else(new);
     let found = match reduced.as_mut().filter(|_| options.selection == Selection::Joint) {
-        Some(reduced) => corrected::correct((band, &[]), &at, found, reduced, &boxes[0], context),
+        Some(reduced) => corrected::correct((band, &[]), &at, found, reduced, options, context),
         None => found,
     };
     Neighbourhoods::hand_back(reduced, trained);

@@ -429,8 +429,8 @@ fn box_points<'a>(at: &ModelAt<'a>, unknown: &Unknown, options: &Options) -> Vec
     let nominal = at.parameters[0].nominal;
     let point = |factor: c64| Point { at: at.clone(), correction: factor - nominal };
     let mut points = vec![point(nominal)];
-    let about = unknown.box_about(nominal, options.box_ratio());
-    if let Some([low, high]) = about.filter(|[low, high]| 0.0 < *low && high.is_finite()) {
+    let searched = options.search_box(unknown, nominal);
+    if let Some([low, high]) = searched.filter(|[low, high]| 0.0 < *low && high.is_finite()) {
         let steps = ((BOX_STORAGES_PER_OCTAVE * (high / low).log2()).ceil() as usize).max(2);
         let eta = loss_factor(nominal);
         let eta = unknown.bounds.loss_factor.map_or(eta, |[low, high]| eta.clamp(low, high));

@@ -1,44 +1,52 @@
-//! Where solutions are searched: near the nominal, and in the whole of the bounds.
+//! Where solutions are searched: near the nominal, where natural frequencies say, and in the whole of the bounds.
 
+use super::far_nominal::factor_by_modes;
 use super::joint::answered_pilots;
 use super::neighbourhoods::Neighbourhoods;
 use super::outcome::BandOutcome;
 use crate::identify::choice::{Reduction, Selection};
 use crate::identify::context::Context;
+use crate::identify::goodness_of_fit::Explained;
 use crate::identify::measured::Band;
 use crate::identify::options::Options;
 use crate::model::ModelAt;
 use crate::response::Work;
 
-/// Options to look near the nominal, and in the whole of the bounds.
-pub(super) fn near_and_far(options: &Options) -> [Options; 2] {
-    [*options, Options { whole_box: true, ..*options }]
+/// Options of a joint selection on the subspace, whatever the options say.
+pub(super) fn on_subspace(options: &Options) -> Options {
+    Options { reduction: Reduction::Subspace, selection: Selection::Joint, ..*options }
 }
 
-/// The same for a joint selection on the subspace, whatever the options say.
-pub(super) fn on_subspace(options: &Options) -> [Options; 2] {
-    near_and_far(&Options { reduction: Reduction::Subspace, selection: Selection::Joint, ..*options })
-}
+/// A factor on the nominal value up to this, or down to one over it, is near: the box about the nominal has all that the box about another value has.
+const NEAR_FACTOR: f64 = 2.0;
 
-/// What is found near the nominal. Where a path through that leaves out most of the band, the nominal is too far and the whole of the bounds is searched too:
-/// the one with more answers is taken then, with the work of both.
+/// Of the frequencies, how many have an answer near a nominal that is not far off.
+const USUAL_ANSWERED: f64 = 0.9;
+
+/// What is found near the nominal, and with which options. Where the path leaves out some of the band or does not explain it, the natural frequencies say whether the nominal is
+/// far off, and answers are searched near the value where they are the measured ones. Where they do not say and most of the band has no answer, they are
+/// searched in the whole of the bounds, or thirty times to either side.
 ///
-/// The reduced model is made good in the wide box as well. Where channels are calibrated, some frequencies over the band are tried there first, and the rest is
-/// left out where no more of them have an answer than near the nominal.
+/// Of the two the one with more answers is taken, with the work of both; where natural frequencies say so, theirs, unless it has far fewer; without
+/// bounds and natural frequencies the far one only where several sensors agree on it.
 pub(super) fn near_or_far<'a, 'o, T>(
-    (band, at): (&Band<'_>, &[ModelAt<'_>]),
-    [near, far]: &[Options; 2],
+    (band, at): (&Band<'a>, &'o [ModelAt<'a>]),
+    near: &Options,
     reduced: &mut Option<Neighbourhoods<'a, 'o>>,
     are_calibrated: bool,
     context: Context<'_>,
     mut run: impl FnMut(&Options, &mut Option<Neighbourhoods<'a, 'o>>) -> (BandOutcome, T),
-) -> (BandOutcome, T) {
-    let mut found = run(near, reduced);
-    let wider =
-        near.selection == Selection::Joint && band.unknown.bounds.storage.is_some() && !near.whole_box;
-    if !wider || 2 * found.0.answered() >= found.0.lines.len() {
-        return found;
+) -> (BandOutcome, T, Options) {
+    let (mut found, mut more) = run(near, reduced);
+    if near.selection != Selection::Joint || near.whole_box {
+        return (found, more, *near);
     }
+    let by_modes = if is_certain(&found) { None } else { far_factor((band, at), near, reduced, context) };
+    let far = match by_modes {
+        Some(about) => Options { about, ..*near },
+        None if 2 * found.answered() < found.lines.len() => Options { whole_box: true, ..*near },
+        None => return (found, more, *near),
+    };
     let work = |reduced: &Option<Neighbourhoods<'_, '_>>| {
         reduced.as_ref().map_or_else(Work::default, |reduced| reduced.work())
     };
@@ -47,21 +55,56 @@ pub(super) fn near_or_far<'a, 'o, T>(
         let pilots = |options: &Options, reduced: &mut Neighbourhoods<'_, '_>| {
             answered_pilots(band, at, reduced, options, context)
         };
-        let near_pilots = if are_calibrated { pilots(near, reduced) } else { 0 };
-        let is_trained = reduced.widen(far, context).is_ok();
+        // Some frequencies over the band are tried in the box that is not as good a guess.
+        let near_pilots = if are_calibrated && by_modes.is_none() { pilots(near, reduced) } else { 0 };
+        let is_trained = reduced.widen(&far, context).is_ok();
         // Where none of them has an answer, they say nothing.
-        is_trained && (near_pilots == 0 || pilots(far, reduced) > near_pilots)
+        is_trained && (near_pilots == 0 || pilots(&far, reduced) > near_pilots)
     });
-    let other = promises_more.then(|| run(far, reduced));
+    let other = promises_more.then(|| run(&far, reduced));
     let spent = other.as_ref().map_or_else(|| work(reduced), |other| other.0.work).since(before);
-    let better = other.filter(|other| other.0.answered() > found.0.answered());
-    match better {
+    // Without bounds and natural frequencies many a wrong value explains a wrong model.
+    let is_bounded = band.unknown.bounds.storage.is_some();
+    let is_better = |other: &BandOutcome| match by_modes {
+        Some(_) => 2 * other.answered() > found.answered(),
+        None => other.answered() > found.answered() && (is_bounded || is_certain(other)),
+    };
+    let mut options = far;
+    match other.filter(|other| is_better(&other.0)) {
         Some(better) => {
-            let own = std::mem::replace(&mut found, better).0.work;
-            found.0.work = own;
+            let own = found.work;
+            (found, more) = better;
+            found.work = own;
         }
-        None => reduced.iter_mut().for_each(|reduced| reduced.look_in(near)),
+        None => {
+            options = *near;
+            reduced.iter_mut().for_each(|reduced| reduced.look_in(near));
+        }
     }
-    found.0.work += spent;
-    found
+    found.work += spent;
+    (found, more, options)
+}
+
+/// Whether nearly all frequencies have an answer on which several sensors agree.
+fn is_certain(found: &BandOutcome) -> bool {
+    let answered = found.answered() as f64 >= USUAL_ANSWERED * found.lines.len() as f64;
+    answered && found.fit.is_some_and(|fit| matches!(fit.verdict, Explained::Yes | Explained::Nearly))
+}
+
+/// By which factor the nominal is far off, where natural frequencies say that it is.
+fn far_factor<'a, 'o>(
+    (band, at): (&Band<'a>, &'o [ModelAt<'a>]),
+    options: &Options,
+    reduced: &Option<Neighbourhoods<'a, 'o>>,
+    context: Context<'_>,
+) -> Option<f64> {
+    let factor = match reduced {
+        Some(reduced) => factor_by_modes(band, at, reduced, context),
+        // A tiny model that answers itself has no modes at hand: they are those of a reduced one.
+        None => {
+            let own = Neighbourhoods::on_trained(band, at, &mut None, options, context)?;
+            factor_by_modes(band, at, &own, context)
+        }
+    };
+    factor.filter(|factor| factor.ln().abs() > NEAR_FACTOR.ln())
 }

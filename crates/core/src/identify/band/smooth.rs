@@ -92,13 +92,15 @@ pub(in crate::identify) fn identify_smooth<'a>(
     context: Context<'_>,
 ) -> Result<SmoothOutcome, OutsideTable> {
     let at = band.model.at_all(band.frequency_hz, std::slice::from_ref(band.parameter))?;
-    let boxes = on_subspace(options);
-    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, &boxes[0], context);
-    let (mut free, ()) = near_or_far((band, &at), &boxes, &mut reduced, true, context, |options, reduced| {
-        (joint::identify(band, &at, reduced.as_mut(), &[], options, context), ())
-    });
+    let options = &on_subspace(options);
+    let mut reduced = Neighbourhoods::if_wanted(band, &at, trained, options, context);
+    let (mut free, (), options) =
+        near_or_far((band, &at), options, &mut reduced, true, context, |options, reduced| {
+            (joint::identify(band, &at, reduced.as_mut(), &[], options, context), ())
+        });
+    let options = &options;
     if let Some(reduced) = &mut reduced {
-        free = correct((band, &[]), &at, free, reduced, &boxes[0], context);
+        free = correct((band, &[]), &at, free, reduced, options, context);
     }
     let wider = Scaled::new(band, &[]).with_rest(free.rest(), band.frequency_hz);
     let band = &wider.band(band);

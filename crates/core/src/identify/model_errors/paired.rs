@@ -6,19 +6,13 @@ use super::Search;
 use super::search::{Fitting, Place};
 use super::tuned::MAX_SHARE;
 use crate::c64;
-use crate::identify::noise::Noise;
-use crate::identify::problem::Frfs;
-use crate::identify::thinned::thinned;
+use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
-use crate::modal::{MeasuredMode, Pair, PairedShape, PoleOptions, measured_modes, paired};
+use crate::modal::{MeasuredMode, Pair, PairedShape, paired};
 use std::f64::consts::TAU;
 
 /// Fewer pairs say nothing of a common factor beside the errors of the modes.
 const MIN_PAIRS: usize = 3;
-
-/// Lines and sensors whose poles are searched, at most.
-const MAX_LINES: usize = 1000;
-const MAX_SENSORS: usize = 6;
 
 /// The damping of a mode is that of the unknowns where they have so much of its strain energy.
 const MIN_ENERGY_SHARE: f64 = 0.3;
@@ -32,7 +26,7 @@ impl Search<'_, '_> {
         start: &[f64],
         used: &dyn Fn(usize, usize) -> bool,
     ) -> Option<Place> {
-        let measured = self.measured_modes()?;
+        let ShownModes { sensors, modes: measured } = self.shown_modes()?;
         let residues = |mode: &MeasuredMode| PairedShape {
             frequency_hz: mode.frequency_hz(),
             residues: mode.residues.clone(),
@@ -41,7 +35,7 @@ impl Search<'_, '_> {
         let of_measured: Vec<PairedShape> = measured.iter().map(residues).collect();
         let elastic: Vec<usize> = (0..fitting.modes()).filter(|&i| self.modes.omega_rad_s[i] > 0.0).collect();
         let of_model = |theta: &[f64]| -> Option<Vec<PairedShape>> {
-            elastic.iter().map(|&mode| self.mode(mode, theta)).collect()
+            elastic.iter().map(|&mode| self.mode(mode, theta, &sensors)).collect()
         };
         let there = of_model(start)?;
         let pairing = paired(&there, &of_measured);
@@ -64,7 +58,7 @@ impl Search<'_, '_> {
         let mut place = fitting.start(&theta);
         for pair in &pairing.pairs {
             let pair_of_modes = (&scaled[pair.model], &of_measured[pair.measured]);
-            self.set_to_partner(&mut place, fitting, elastic[pair.model], pair_of_modes);
+            self.set_to_partner(&mut place, fitting, (elastic[pair.model], &sensors), pair_of_modes);
         }
         let is_alone = |mode: &usize| {
             self.modes.omega_rad_s[*mode] <= fitting.highest_rad_s
@@ -75,7 +69,7 @@ impl Search<'_, '_> {
     }
 
     /// A mode of the model with these values of the unknowns, by Rayleigh's quotient from those at which the modes were computed.
-    fn mode(&self, mode: usize, theta: &[f64]) -> Option<PairedShape> {
+    fn mode(&self, mode: usize, theta: &[f64], sensors: &[usize]) -> Option<PairedShape> {
         let modes = &self.modes;
         let energy_share = *modes.energy_shares[mode].last()?;
         let omega = modes.omega_rad_s[mode];
@@ -86,8 +80,8 @@ impl Search<'_, '_> {
         let ln_ratio = |&j: &usize| (values[j].re / self.values_of_modes[j].re).ln();
         let mean = smooth.iter().map(ln_ratio).sum::<f64>() / smooth.len() as f64;
         let omega = omega * (0.5 * energy_share * mean).exp();
-        let residue = |m: usize| modes.sensors[m][mode] * modes.load[mode] / c64::new(0.0, 2.0 * omega);
-        let residues = self.sensors_of_poles().into_iter().map(residue).collect();
+        let residue = |&m: &usize| modes.sensors[m][mode] * modes.load[mode] / c64::new(0.0, 2.0 * omega);
+        let residues = sensors.iter().map(residue).collect();
         omega.is_finite().then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
     }
 
@@ -96,7 +90,7 @@ impl Search<'_, '_> {
         &self,
         place: &mut Place,
         fitting: &Fitting<'_, '_>,
-        mode: usize,
+        (mode, sensors): (usize, &[usize]),
         (own, partner): (&PairedShape, &PairedShape),
     ) {
         let share_of = |error: &usize| self.modes.share_of(*error);
@@ -105,12 +99,11 @@ impl Search<'_, '_> {
         place[fitting.first_own() + error] = (partner.frequency_hz / own.frequency_hz).ln();
         let residues = partner.residues.iter().zip(&own.residues);
         let ratios = residues.map(|(partner, own)| (partner / own).re);
-        let ratios: Vec<(usize, f64)> = self
-            .sensors_of_poles()
-            .into_iter()
+        let ratios: Vec<(usize, f64)> = sensors
+            .iter()
             .zip(ratios)
             .filter(|(_, ratio)| ratio.is_finite())
-            .map(|(m, ratio)| (fitting.first_shape(m) + mode, ratio.clamp(-MAX_SHARE, MAX_SHARE)))
+            .map(|(&m, ratio)| (fitting.first_shape(m) + mode, ratio.clamp(-MAX_SHARE, MAX_SHARE)))
             .collect();
         // The force has the part of the ratios that leaves the least unusual errors to the force and the sensors.
         let of_force = fitting.first_load() + mode;
@@ -125,27 +118,9 @@ impl Search<'_, '_> {
         ratios.iter().for_each(|&(coordinate, ratio)| place[coordinate] = ratio / force - 1.0);
     }
 
-    /// Sensors whose poles are searched.
-    fn sensors_of_poles(&self) -> Vec<usize> {
-        let counted: Vec<usize> = self.data.counted_sensors().collect();
-        thinned(&counted, MAX_SENSORS).copied().collect()
-    }
-
-    /// The modes that these sensors show.
-    fn measured_modes(&self) -> Option<Vec<MeasuredMode>> {
-        let (data, sensors) = (self.data, self.sensors_of_poles());
-        let all: Vec<usize> = (0..data.omegas.len()).filter(|&i| data.omegas[i] > 0.0).collect();
-        let lines: Vec<usize> = thinned(&all, MAX_LINES).copied().collect();
-        let frequency_hz: Vec<f64> = lines.iter().map(|&i| data.omegas[i] / TAU).collect();
-        let receptance: Vec<Vec<c64>> =
-            lines.iter().map(|&i| sensors.iter().map(|&m| data.measured[i][m]).collect()).collect();
-        let std: Vec<Vec<f64>> =
-            lines.iter().map(|&i| sensors.iter().map(|&m| data.sigma[i][m]).collect()).collect();
-        // The fit finds the level itself.
-        let noise = Noise::Relative(&std);
-        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &receptance, noise };
-        let decay_per_s = data.on(self.curves, self.centre, lines[0])?.at.model.decay_per_s();
-        let options = PoleOptions::default().with_decay_per_s(decay_per_s);
-        Some(measured_modes(frfs, &options, self.for_each).ok()?.modes)
+    fn shown_modes(&self) -> Option<ShownModes> {
+        let data = self.data;
+        let decay_per_s = data.on(self.curves, self.centre, self.lines[0])?.at.model.decay_per_s();
+        ShownModes::new(data.omegas, (data.measured, data.sigma), decay_per_s, self.for_each)
     }
 }
