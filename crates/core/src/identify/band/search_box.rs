@@ -17,8 +17,8 @@ pub(super) fn on_subspace(options: &Options) -> Options {
     Options { reduction: Reduction::Subspace, selection: Selection::Joint, ..*options }
 }
 
-/// A factor on the nominal value up to this, or down to one over it, is near: the box about the nominal has all that the box about another value has.
-const NEAR_FACTOR: f64 = 2.0;
+/// A factor on the nominal value up to this, or down to one over it, is near: it is well within the box about the nominal.
+const NEAR_FACTOR: f64 = 3.2;
 
 /// Of the frequencies, how many have an answer near a nominal that is not far off.
 const USUAL_ANSWERED: f64 = 0.9;
