@@ -524,6 +524,33 @@ fn calibrations_are_found_and_contradictions_are_named() {
     assert!(contradicted[0].deviations() > 4.0, "{contradicted:?}");
 }
 
+/// Constants of a beam on springs, measured on a finer mesh, whose nominal values are up to twenty times off without bounds: both, or one of them. From values that are too
+/// small the search alone does not come back.
+#[test]
+fn far_nominals_of_constants_are_found_by_natural_frequencies() {
+    let frequency_hz = linear_hz(5.0, 560.0, of_tier(60, 200));
+    let truth = [c64::new(7e10, 7e8), c64::new(2e3, 0.0), c64::new(2700.0, 0.0)];
+    let (u, std) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
+    let more = [[8.0, 8.0], [0.05, 0.05], [0.1, 0.8], [20.0, 1.2]];
+    for [beam, springs] in [[0.1, 0.1]].into_iter().chain(of_tier(None, Some(more)).into_iter().flatten()) {
+        let nominal = [beam * truth[0], springs * truth[1], truth[2]];
+        let (model, experiment) = sprung(8, nominal, &[0.8, 0.4, 0.2]);
+        let unknowns = sprung_unknowns(&model);
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Known(&std) };
+        let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
+        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+        let found = identify(&problem, &Options::default(), context).unwrap();
+        let numbers = found.constants.iter().flat_map(|value| &value.numbers);
+        for (number, truth) in numbers.zip([7e10, 0.01, 2e3]) {
+            let off = (number.value - truth).abs() / number.std.unwrap();
+            assert!(off < 3.0, "× {beam}, {springs}: {off} {number:?}");
+        }
+        assert!(found.constants.iter().all(|value| value.status == Status::Ok), "× {beam}, {springs}");
+        // What was given stays the nominal value.
+        assert_eq!(found.lines[0].values[0].nominal, nominal[0]);
+    }
+}
+
 /// Natural frequencies of a model without its losses, rad/s, below a limit in Hz.
 fn natural_hz(model: &DynamicStiffness, highest: f64) -> Vec<f64> {
     let sum = |role| {

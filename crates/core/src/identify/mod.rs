@@ -20,6 +20,7 @@ mod coarser_mesh;
 mod confirmation;
 mod context;
 mod dead_channel;
+mod far_nominal;
 mod form;
 mod goodness_of_fit;
 mod identification;

@@ -6,7 +6,6 @@ mod channels;
 mod continuation;
 mod corrected;
 mod exploration_grid;
-mod far_nominal;
 mod fit;
 mod initial_calibration;
 mod joint;

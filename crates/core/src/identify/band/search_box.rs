@@ -1,24 +1,26 @@
 //! Where solutions are searched: near the nominal, where natural frequencies say, and in the whole of the bounds.
 
-use super::far_nominal::factor_by_modes;
 use super::joint::answered_pilots;
 use super::neighbourhoods::Neighbourhoods;
 use super::outcome::BandOutcome;
+use crate::c64;
+use crate::frequency::omega_rad_s;
 use crate::identify::choice::{Reduction, Selection};
 use crate::identify::context::Context;
+use crate::identify::dead_channel::dead_channels;
+use crate::identify::far_nominal::{MeasuredShapes, are_stiffnesses};
 use crate::identify::goodness_of_fit::Explained;
 use crate::identify::measured::Band;
+use crate::identify::noise::{standard_deviations, without};
 use crate::identify::options::Options;
 use crate::model::ModelAt;
 use crate::response::Work;
+use crate::subspace::Point;
 
 /// Options of a joint selection on the subspace, whatever the options say.
 pub(super) fn on_subspace(options: &Options) -> Options {
     Options { reduction: Reduction::Subspace, selection: Selection::Joint, ..*options }
 }
-
-/// A factor on the nominal value up to this, or down to one over it, is near: it is well within the box about the nominal.
-const NEAR_FACTOR: f64 = 3.2;
 
 /// Of the frequencies, how many have an answer near a nominal that is not far off.
 const USUAL_ANSWERED: f64 = 0.9;
@@ -98,13 +100,26 @@ fn far_factor<'a, 'o>(
     reduced: &Option<Neighbourhoods<'a, 'o>>,
     context: Context<'_>,
 ) -> Option<f64> {
-    let factor = match reduced {
-        Some(reduced) => factor_by_modes(band, at, reduced, context),
+    if !are_stiffnesses(band.model, band.unknown.dependence.terms()) {
+        return None;
+    }
+    let own;
+    let reduced = match reduced {
+        Some(reduced) => reduced,
         // A tiny model that answers itself has no modes at hand: they are those of a reduced one.
         None => {
-            let own = Neighbourhoods::on_trained(band, at, &mut None, options, context)?;
-            factor_by_modes(band, at, &own, context)
+            own = Neighbourhoods::on_trained(band, at, &mut None, options, context)?;
+            &own
         }
     };
-    factor.filter(|factor| factor.ln().abs() > NEAR_FACTOR.ln())
+    let omegas: Vec<f64> = band.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect();
+    let std = without(&standard_deviations(band.measured, band.noise), &dead_channels(band.measured));
+    let measured = (band.measured, std.as_slice());
+    let shapes = MeasuredShapes::new(&omegas, measured, band.model.decay_per_s(), context.for_each)?;
+    let nominal: Vec<(f64, c64)> = at.iter().map(|at| (at.frequency_hz, at.parameters[0].nominal)).collect();
+    let middle = &at[at.len() / 2];
+    let point = |factor: f64| {
+        Some(Point { at: middle.clone(), correction: middle.parameters[0].nominal * (factor - 1.0) })
+    };
+    Some(shapes.far(reduced.whole(), &nominal, &point)?.factor)
 }

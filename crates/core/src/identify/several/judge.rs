@@ -240,7 +240,7 @@ impl Task<'_, '_> {
         (level, fit): (Option<f64>, Option<GoodnessOfFit>),
         known: Option<Known<'_>>,
     ) -> Line {
-        let nominal = &self.nominal[i];
+        let nominal = &self.given[i];
         let values = nominal.iter().map(|&nominal| LineValue::unknown(nominal)).collect();
         let mut line = Line::of_values(self.problem.frfs.frequency_hz[i], values);
         line.nominal_response = reduced.respond(i, nominal).map(|(x, _)| x).unwrap_or_default();
@@ -368,7 +368,7 @@ impl Task<'_, '_> {
                     Some([of_theta(&re, &re), of_theta(&re, &im), of_theta(&im, &im)])
                 })
             };
-            bars(self.nominal[i][j], value, unknowns.real, parts.zip(level), contributions)
+            bars(self.given[i][j], value, unknowns.real, parts.zip(level), contributions)
         };
         self.problem.unknowns.iter().enumerate().map(&mut one).collect()
     }

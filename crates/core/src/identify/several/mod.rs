@@ -38,18 +38,21 @@ pub use outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profil
 use super::channel::Calibration;
 use super::context::Context;
 use super::dead_channel::dead_channels;
+use super::far_nominal::{Far, MeasuredShapes, are_stiffnesses};
+use super::goodness_of_fit::{Explained, GoodnessOfFit};
 use super::noise::{NoiseLevel, standard_deviations, without};
 use super::options::Options;
 use super::outcome::Line;
 use super::problem::Problem;
-use super::unknown::{Composite, Unknown};
+use super::unknown::{Composite, Dependence, Unknown};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::material::OutsideTable;
 use crate::response::Work;
-use crate::subspace::Subspace;
+use crate::subspace::{Point, Subspace};
 use frfit_linalg::solve::Breakdown;
 use neighbourhoods::Neighbourhoods;
+use search::BandSolution;
 
 /// What there is to work with.
 struct Task<'t, 'a> {
@@ -57,8 +60,10 @@ struct Task<'t, 'a> {
     problem: &'t Problem<'a>,
     /// As it was asked.
     asked: &'t Problem<'a>,
-    /// `[frequency][unknown]`.
+    /// About which answers are searched, `[frequency][unknown]`.
     nominal: &'t [Vec<c64>],
+    /// The nominal values that were given.
+    given: &'t [Vec<c64>],
     omegas: Vec<f64>,
     /// σ of real and imaginary part each; infinite of a sensor that is left out.
     sigma: Vec<Vec<f64>>,
@@ -92,6 +97,7 @@ pub(super) fn identify_several<'a>(
         problem: &problem.with_unknowns(&freed),
         asked: problem,
         nominal: &nominal,
+        given: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: without(&standard_deviations(frfs.receptance, frfs.noise), &dead),
         left_out: dead,
@@ -105,21 +111,37 @@ pub(super) fn identify_several<'a>(
     Ok(match subspace {
         Ok(subspace) => {
             let mut reduced = Neighbourhoods::new(subspace, problem, &nominal, context);
-            let mut found = task.search(&mut reduced);
-            let contradicting = task.contradicting(&mut reduced, &found);
-            let rejected = if options.reject_outliers { contradicting.as_slice() } else { &[] };
-            let kept = task.leaving_out(&[task.left_out.as_slice(), rejected].concat());
-            if !rejected.is_empty() {
-                found = kept.search(&mut reduced);
+            let mut found = task.searched(&mut reduced);
+            let moved: Vec<Vec<c64>>;
+            let mut task = task;
+            if let Some(factors) = task.far(&reduced, &found) {
+                let times = |values: &Vec<c64>| values.iter().zip(&factors).map(|(p, f)| p * f).collect();
+                moved = nominal.iter().map(times).collect();
+                match neighbourhoods::train(Some(reduced.into_subspace()), problem, &moved, context)? {
+                    Ok(subspace) => reduced = Neighbourhoods::new(subspace, problem, &moved, context),
+                    Err(breakdown) => return Ok(task.broken(breakdown)),
+                }
+                task = Task { nominal: &moved, ..task };
+                found = task.searched(&mut reduced);
             }
-            let right = kept.judge(&reduced, &found, None);
-            let mut outcome = kept.correct(&mut reduced, &found, right);
-            outcome.sensors = kept.sensor_fits(&task.sigma, &contradicting, &outcome);
+            let kept = task.leaving_out(&found.left_out);
+            let mut outcome = kept.correct(&mut reduced, &found.solution, found.right);
+            outcome.sensors = kept.sensor_fits(&task.sigma, &found.contradicting, &outcome);
             *trained = Some(reduced.into_subspace());
             outcome
         }
         Err(breakdown) => task.broken(breakdown),
     })
+}
+
+/// What a search found.
+struct Searched {
+    solution: BandSolution,
+    /// As a right model has it.
+    right: SeveralOutcome,
+    /// Sensors that contradict all others, and those that are left out.
+    contradicting: Vec<usize>,
+    left_out: Vec<usize>,
 }
 
 /// The nominal values, `[frequency][unknown]`.
@@ -138,13 +160,69 @@ pub(super) fn train<'a>(
 }
 
 impl Task<'_, '_> {
+    /// What a right model has, without sensors that contradict all others.
+    fn searched(&self, reduced: &mut Neighbourhoods<'_>) -> Searched {
+        let mut solution = self.search(reduced);
+        let contradicting = self.contradicting(reduced, &solution);
+        let rejected = if self.options.reject_outliers { contradicting.as_slice() } else { &[] };
+        let left_out = [self.left_out.as_slice(), rejected].concat();
+        let kept = self.leaving_out(&left_out);
+        if !rejected.is_empty() {
+            solution = kept.search(reduced);
+        }
+        let right = kept.judge(reduced, &solution, None);
+        Searched { solution, right, contradicting, left_out }
+    }
+
+    /// By which factors nominal values are far off, where the band is not explained and natural frequencies say that all stiffnesses together are, or a single one.
+    fn far(&self, reduced: &Neighbourhoods<'_>, found: &Searched) -> Option<Vec<f64>> {
+        let is_explained = |fit: GoodnessOfFit| matches!(fit.verdict, Explained::Yes | Explained::Nearly);
+        if found.right.fit.is_some_and(is_explained) {
+            return None;
+        }
+        let Problem { model, unknowns, frfs, .. } = self.problem;
+        let is_stiffness = |j: &usize| match &unknowns[*j].dependence {
+            Dependence::Factor(terms) => are_stiffnesses(model, terms.iter().copied()),
+            Dependence::Powers(_) => false,
+        };
+        let all: Vec<usize> = (0..unknowns.len()).filter(is_stiffness).collect();
+        let single = all.iter().map(|&j| vec![j]).filter(|_| all.len() > 1);
+        let measured = (frfs.receptance, self.sigma.as_slice());
+        let for_each = self.context.for_each;
+        let shapes = MeasuredShapes::new(&self.omegas, measured, model.decay_per_s(), for_each)?;
+        let middle = frfs.frequency_hz.len() / 2;
+        let of = |which: Vec<usize>| -> Option<(Far, Vec<usize>)> {
+            let first = *which.first()?;
+            let nominal: Vec<(f64, c64)> =
+                frfs.frequency_hz.iter().zip(self.nominal).map(|(&f, values)| (f, values[first])).collect();
+            let point = |factor: f64| {
+                let mut values = self.nominal[middle].clone();
+                which.iter().for_each(|&j| values[j] *= factor);
+                let frequency_hz = frfs.frequency_hz[middle];
+                let at = match which.len() {
+                    1 => reduced.composite.about_one(frequency_hz, &values, first).ok()?,
+                    _ => reduced.composite.at(frequency_hz, &values).ok()?,
+                };
+                Some(Point { at, correction: c64::default() })
+            };
+            let far = shapes.far(reduced.whole(), &nominal, &point)?;
+            Some((far, which))
+        };
+        let (far, which) = std::iter::once(all.clone())
+            .chain(single)
+            .filter_map(of)
+            .max_by(|a, b| a.0.gain.total_cmp(&b.0.gain))?;
+        let factor = |j: usize| if which.contains(&j) { far.factor } else { 1.0 };
+        Some((0..unknowns.len()).map(factor).collect())
+    }
+
     fn broken(&self, breakdown: Breakdown) -> SeveralOutcome {
         let at = |(nominal, &frequency_hz): (&Vec<c64>, &f64)| {
             Line::broken(frequency_hz, nominal, 0, breakdown.clone())
         };
         SeveralOutcome {
             band: Vec::new(),
-            lines: self.nominal.iter().zip(self.problem.frfs.frequency_hz).map(at).collect(),
+            lines: self.given.iter().zip(self.problem.frfs.frequency_hz).map(at).collect(),
             coordinates: Vec::new(),
             correlation: Vec::new(),
             directions: Vec::new(),

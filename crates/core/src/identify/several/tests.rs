@@ -83,6 +83,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         problem: &problem,
         asked: &problem,
         nominal: &nominal,
+        given: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
         sigma: standard_deviations(&measured, Noise::Unknown),
         left_out: Vec::new(),

@@ -3,18 +3,14 @@
 //! The modes of the model at values all over a wide range are paired with those of the measurement. At the right one most of them have a partner at the same
 //! frequency with the same shape, whatever small errors the model has; no solution of single frequencies says as much.
 
-use super::neighbourhoods::Neighbourhoods;
+use super::shown_modes::ShownModes;
+use super::thinned::thinned;
 use crate::c64;
-use crate::frequency::omega_rad_s;
-use crate::identify::context::Context;
-use crate::identify::dead_channel::dead_channels;
-use crate::identify::measured::Band;
-use crate::identify::noise::{standard_deviations, without};
-use crate::identify::shown_modes::ShownModes;
-use crate::identify::thinned::thinned;
+use crate::for_each::ForEach;
 use crate::median::median;
 use crate::modal::{MeasuredMode, PairedShape, best};
-use crate::model::{ModelAt, Role};
+use crate::model::{DynamicStiffness, Role};
+use crate::subspace::{Point, Projection};
 use std::f64::consts::TAU;
 
 /// The logarithm of the factor on the nominal value that is tried, and how many to either side: up to thirty times. In steps so small that Rayleigh's quotient holds
@@ -46,42 +42,100 @@ const MIN_VISIBLE: f64 = 0.2;
 const MODES_ABOVE_BAND: f64 = 1.5;
 const MAX_MODES: usize = 60;
 
-/// The factor on the nominal value with which the model's modes are those of the measurement; `None` where they do not say, or no stiffness is unknown.
-pub(super) fn factor_by_modes(
-    band: &Band<'_>,
-    at: &[ModelAt<'_>],
-    reduced: &Neighbourhoods<'_, '_>,
-    context: Context<'_>,
-) -> Option<f64> {
-    let is_stiffness = |term: usize| band.model.terms()[term].role == Role::Stiffness;
-    if !band.unknown.dependence.terms().all(is_stiffness) {
-        return None;
-    }
-    let omegas: Vec<f64> = band.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect();
-    let std = without(&standard_deviations(band.measured, band.noise), &dead_channels(band.measured));
-    let decay_per_s = band.model.decay_per_s();
-    let shown = ShownModes::new(&omegas, (band.measured, &std), decay_per_s, context.for_each)?;
-    let measured: Vec<PairedShape> = shown.modes.iter().filter_map(of_measured).collect();
-    let model = ScaledModes::new(at, reduced, &shown.sensors, MODES_ABOVE_BAND * omegas.last()?)?;
-    let mut tried: Vec<(f64, f64, usize)> = Vec::new();
-    for slope in SLOPES {
-        for k in -STEPS..=STEPS {
-            let log_factor = f64::from(k) * LOG_FACTOR_STEP;
-            let modes = model.with_factor(log_factor, slope);
-            let found = best(&modes, &measured, 0.5 * LOG_FACTOR_STEP);
-            let pairs = found.pairs.len();
-            let shown = visible(&modes, &measured).max(pairs).max(1);
-            let gain = found.gain * pairs as f64 / shown as f64;
-            tried.push((log_factor + found.log_factor, gain, pairs));
-        }
-    }
-    let &(log_factor, gain, pairs) = tried.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let rivals = tried.iter().filter(|other| (other.0 - log_factor).abs() > SAME_LOG_FACTOR);
-    let rival = rivals.map(|other| other.1).fold(0.0, f64::max);
-    (pairs >= MIN_PAIRS && rival <= MAX_RIVAL_GAIN * gain).then_some(log_factor.exp())
+/// A factor on the nominal value up to this, or down to one over it, is near: it is well within the box about the nominal.
+const NEAR_FACTOR: f64 = 3.2;
+
+/// The modes of a measurement, of which those of the model are to be partners.
+pub(super) struct MeasuredShapes {
+    sensors: Vec<usize>,
+    shapes: Vec<PairedShape>,
+    highest_rad_s: f64,
 }
 
-/// The modes of a model with its unknown constant at values all over a range.
+/// By how much a nominal value is off.
+pub(super) struct Far {
+    /// The true value over the nominal one.
+    pub(super) factor: f64,
+    /// How many modes of the model have a partner then, and how near those are.
+    pub(super) gain: f64,
+}
+
+impl MeasuredShapes {
+    /// Of what was measured at angular frequencies ω, with its standard deviations, both `[line][sensor]`; infinite of a sensor that is left out. The records may have a
+    /// window of this decay.
+    pub(super) fn new(
+        omegas: &[f64],
+        measured: (&[Vec<c64>], &[Vec<f64>]),
+        decay_per_s: f64,
+        for_each: ForEach<'_>,
+    ) -> Option<Self> {
+        let ShownModes { sensors, modes } = ShownModes::new(omegas, measured, decay_per_s, for_each)?;
+        let shapes = modes.iter().filter_map(of_measured).collect();
+        Some(Self { sensors, shapes, highest_rad_s: MODES_ABOVE_BAND * omegas.last()? })
+    }
+
+    /// The factor on some nominal values with which the model's modes are those of the measurement; `None` where they do not say, or where it is near one. `point` is the model in the
+    /// middle of the band with that factor, `nominal` a frequency of the band and the nominal value there, of several.
+    pub(super) fn far<'a>(
+        &self,
+        model: &Projection,
+        nominal: &[(f64, c64)],
+        point: &dyn Fn(f64) -> Option<Point<'a>>,
+    ) -> Option<Far> {
+        let model = self.scaled_modes(model, nominal, point)?;
+        let mut tried: Vec<(f64, f64, usize)> = Vec::new();
+        for slope in SLOPES {
+            for k in -STEPS..=STEPS {
+                let log_factor = f64::from(k) * LOG_FACTOR_STEP;
+                let modes = model.with_factor(log_factor, slope);
+                let found = best(&modes, &self.shapes, 0.5 * LOG_FACTOR_STEP);
+                let pairs = found.pairs.len();
+                let shown = visible(&modes, &self.shapes).max(pairs).max(1);
+                let gain = found.gain * pairs as f64 / shown as f64;
+                tried.push((log_factor + found.log_factor, gain, pairs));
+            }
+        }
+        let &(log_factor, gain, pairs) = tried.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let rivals = tried.iter().filter(|other| (other.0 - log_factor).abs() > SAME_LOG_FACTOR);
+        let rival = rivals.map(|other| other.1).fold(0.0, f64::max);
+        let is_certain = pairs >= MIN_PAIRS && rival <= MAX_RIVAL_GAIN * gain;
+        let is_far = log_factor.abs() > NEAR_FACTOR.ln();
+        (is_certain && is_far).then_some(Far { factor: log_factor.exp(), gain })
+    }
+
+    fn scaled_modes<'a>(
+        &self,
+        model: &Projection,
+        nominal: &[(f64, c64)],
+        point: &dyn Fn(f64) -> Option<Point<'a>>,
+    ) -> Option<ScaledModes> {
+        let of_value = |k: i32| -> Option<Vec<PairedShape>> {
+            let Point { at, correction } = point((f64::from(k) * LOG_FACTOR_STEP).exp())?;
+            let modes = model.modes(&at, correction, self.highest_rad_s, MAX_MODES).ok()?;
+            let one = |i: usize| -> Option<PairedShape> {
+                let omega = modes.omega_rad_s[i];
+                let residue = |&m: &usize| modes.sensors[m][i] * modes.load[i] / c64::new(0.0, 2.0 * omega);
+                let energy_share = *modes.energy_shares[i].last()?;
+                let residues = self.sensors.iter().map(residue).collect();
+                (omega > 0.0).then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
+            };
+            Some((0..modes.omega_rad_s.len()).filter_map(one).collect())
+        };
+        let modes = (-STEPS - MORE_STEPS..=STEPS + MORE_STEPS).map(of_value).collect::<Option<Vec<_>>>()?;
+        let (middle_hz, middle) = nominal[nominal.len() / 2];
+        let ln_ratio = |&(frequency_hz, value): &(f64, c64)| (frequency_hz, (value.re / middle.re).ln());
+        let nominal: Vec<(f64, f64)> = thinned(nominal, MAX_NOMINAL_VALUES).map(ln_ratio).collect();
+        let is_known = nominal.iter().all(|one| one.1.is_finite());
+        is_known.then_some(ScaledModes { modes, nominal, middle_hz })
+    }
+}
+
+/// Whether all of these terms are stiffnesses: natural frequencies grow with their factor.
+pub(super) fn are_stiffnesses(model: &DynamicStiffness, mut terms: impl Iterator<Item = usize>) -> bool {
+    terms.all(|term| model.terms()[term].role == Role::Stiffness)
+}
+
+/// The modes of a model with something unknown at values all over a range, constant over the band.
 struct ScaledModes {
     /// The natural frequencies and shapes of each value, `[value][mode]`.
     modes: Vec<Vec<PairedShape>>,
@@ -91,34 +145,6 @@ struct ScaledModes {
 }
 
 impl ScaledModes {
-    fn new(
-        at: &[ModelAt<'_>],
-        reduced: &Neighbourhoods<'_, '_>,
-        sensors: &[usize],
-        highest_rad_s: f64,
-    ) -> Option<Self> {
-        let middle = &at[at.len() / 2];
-        let nominal = middle.parameters[0].nominal;
-        let ln_nominal =
-            |at: &ModelAt<'_>| (at.frequency_hz, (at.parameters[0].nominal.re / nominal.re).ln());
-        let of_value = |k: i32| -> Option<Vec<PairedShape>> {
-            let correction = nominal * (f64::from(k) * LOG_FACTOR_STEP).exp_m1();
-            let modes = reduced.whole().modes(middle, correction, highest_rad_s, MAX_MODES).ok()?;
-            let one = |i: usize| -> Option<PairedShape> {
-                let omega = modes.omega_rad_s[i];
-                let residue = |&m: &usize| modes.sensors[m][i] * modes.load[i] / c64::new(0.0, 2.0 * omega);
-                let energy_share = *modes.energy_shares[i].last()?;
-                let residues = sensors.iter().map(residue).collect();
-                (omega > 0.0).then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
-            };
-            Some((0..modes.omega_rad_s.len()).filter_map(one).collect())
-        };
-        let modes = (-STEPS - MORE_STEPS..=STEPS + MORE_STEPS).map(of_value).collect::<Option<Vec<_>>>()?;
-        let nominal: Vec<(f64, f64)> = thinned(at, MAX_NOMINAL_VALUES).map(ln_nominal).collect();
-        let is_known = nominal.iter().all(|one| one.1.is_finite());
-        is_known.then_some(Self { modes, nominal, middle_hz: middle.frequency_hz })
-    }
-
     /// The modes where ln E is that of the nominal law, plus a factor, plus a slope times ln f: each at the value that E has at its frequency. What lies
     /// between two values is Rayleigh's quotient.
     fn with_factor(&self, log_factor: f64, slope: f64) -> Vec<PairedShape> {
