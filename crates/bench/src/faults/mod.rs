@@ -49,7 +49,7 @@ pub fn tried(seed: u64, index: u64, which: Which) -> Result<Tried, Failure> {
         let place = Class::ALL.iter().position(|one| *one == class).unwrap_or(0) as u64;
         // Each case is a case of its own: no two share a structure.
         let number = |attempt: u64| Class::ALL.len() as u64 * (index + (attempt << 32)) + place;
-        let draw = |attempt: u64| Case::draw(seed, number(attempt), Setting::of(Unknowns::One));
+        let draw = |attempt: u64| Case::draw(seed, number(attempt), Setting::USUAL, Unknowns::One);
         let mut case = draw(0).or_else(|_| draw(1))?;
         let mut dice = Dice::new(seed ^ 0xFA17, index);
         case.model = nominal(&case, dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]))?;

@@ -122,22 +122,18 @@ pub enum Meshes {
     Two,
 }
 
-/// What a user has, and what he asks for.
+/// What a user has.
 #[derive(Debug, Clone, Copy)]
 pub struct Setting {
     /// His meshes.
     pub meshes: Meshes,
-    /// What is unknown to him.
-    pub unknowns: Unknowns,
     /// By which factor his nominal value is off at most, to either side; `None` where it is 0.6 to 1.4 times the true one.
     pub nominal_within: Option<f64>,
 }
 
 impl Setting {
     /// A single mesh, and a nominal value that is nearly right.
-    pub fn of(unknowns: Unknowns) -> Self {
-        Self { meshes: Meshes::One, unknowns, nominal_within: None }
-    }
+    pub const USUAL: Self = Self { meshes: Meshes::One, nominal_within: None };
 }
 
 /// Nominal over true factor.
@@ -172,8 +168,8 @@ impl Case {
     ///
     /// # Errors
     /// Where a model cannot be made or solved: a fault of this benchmark.
-    pub fn draw(seed: u64, index: u64, setting: Setting) -> Result<Self, Failure> {
-        let Setting { meshes, unknowns, nominal_within } = setting;
+    pub fn draw(seed: u64, index: u64, setting: Setting, unknowns: Unknowns) -> Result<Self, Failure> {
+        let Setting { meshes, nominal_within } = setting;
         let class = Class::of(index);
         let mut dice = Dice::new(seed, index);
         let kind = class.kind_of(index, unknowns).ok_or("nothing that is known can be wrong")?;
@@ -527,7 +523,7 @@ mod tests {
             matches!(Class::of(*index).kind_of(*index, Unknowns::One), Some(Kind::Beam | Kind::SprungBeam))
         };
         let index = indices.find(is_beam).unwrap();
-        Case::draw(1, index, Setting::of(Unknowns::One)).unwrap()
+        Case::draw(1, index, Setting::USUAL, Unknowns::One).unwrap()
     }
 
     #[test]

@@ -24,6 +24,7 @@ pub mod structure;
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 use case::{Case, Setting, Way};
+use fault::Unknowns;
 use frfit::identify::Options;
 use report::{Run, Tried};
 
@@ -39,7 +40,7 @@ pub fn tried(
     options: &Options,
 ) -> Result<Tried, Failure> {
     let run = || {
-        let case = Case::draw(seed, index, setting)?;
+        let case = Case::draw(seed, index, setting, Unknowns::of(ways))?;
         let identified = |&way: &Way| {
             let (found, seconds) = case.identify(way, options)?;
             Ok(Run::new(way, &found, score::judged(&case, &found)?, seconds))

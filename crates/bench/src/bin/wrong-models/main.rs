@@ -100,7 +100,7 @@ fn main() -> Result<(), Failure> {
             || (class.is_none_or(|class| own == class) && !own.kinds(unknowns).is_empty())
     };
     let indices: Vec<u64> = (first..).filter(is_asked).take(count).collect();
-    let setting = Setting { meshes: arguments.meshes, unknowns, nominal_within: arguments.nominal_within };
+    let setting = Setting { meshes: arguments.meshes, nominal_within: arguments.nominal_within };
     let one = |index| tried(*seed, index, ways, setting, &options);
     let all = Cases::try_all(&indices, one, described)?;
     if let Some(file) = &arguments.csv {
