@@ -11,6 +11,7 @@ use crate::median::median;
 use crate::modal::{MeasuredMode, PairedShape, best};
 use crate::model::{DynamicStiffness, Role};
 use crate::subspace::{Point, Projection};
+use frfit_linalg::vector::norm;
 use std::f64::consts::TAU;
 
 /// The logarithm of the factor on the nominal value that is tried, and how many to either side: up to thirty times. In steps so small that Rayleigh's quotient holds
@@ -114,9 +115,8 @@ impl MeasuredShapes {
             let modes = model.modes(&at, correction, self.highest_rad_s, MAX_MODES).ok()?;
             let one = |i: usize| -> Option<PairedShape> {
                 let omega = modes.omega_rad_s[i];
-                let residue = |&m: &usize| modes.sensors[m][i] * modes.load[i] / c64::new(0.0, 2.0 * omega);
                 let energy_share = *modes.energy_shares[i].last()?;
-                let residues = self.sensors.iter().map(residue).collect();
+                let residues = modes.residues(i, omega, &self.sensors);
                 (omega > 0.0).then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
             };
             Some((0..modes.omega_rad_s.len()).filter_map(one).collect())
@@ -170,7 +170,7 @@ impl ScaledModes {
 
 /// How many modes of the model the measurement should show: those between its lowest and its highest one whose residues are not far below the usual ones.
 fn visible(model: &[PairedShape], measured: &[PairedShape]) -> usize {
-    let size = |shape: &PairedShape| shape.residues.iter().map(|r| r.norm_sqr()).sum::<f64>().sqrt();
+    let size = |shape: &PairedShape| norm(&shape.residues);
     let frequencies = || measured.iter().map(|mode| mode.frequency_hz);
     let (first, last) = (frequencies().fold(f64::INFINITY, f64::min), frequencies().fold(0.0, f64::max));
     let in_band = |mode: &&PairedShape| first <= mode.frequency_hz && mode.frequency_hz <= last;

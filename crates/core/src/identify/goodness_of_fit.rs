@@ -21,6 +21,11 @@ impl GoodnessOfFit {
         Self { verdict: if other { Explained::No } else { self.verdict }, ..self }
     }
 
+    /// Whether noise is all that is left, or nearly.
+    pub(super) fn is_explained(&self) -> bool {
+        matches!(self.verdict, Explained::Yes | Explained::Nearly)
+    }
+
     pub(super) fn is_nearly_explained(&self) -> bool {
         self.verdict == Explained::Nearly
     }

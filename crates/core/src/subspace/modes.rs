@@ -502,6 +502,12 @@ impl Modes {
         &self.shapes[i]
     }
 
+    /// R_m = Fᵀy ℓ_mᵀy/2iω of mode i at some sensors, where its natural frequency is ω.
+    pub(crate) fn residues(&self, i: usize, omega_rad_s: f64, sensors: &[usize]) -> Vec<c64> {
+        let over = c64::new(0.0, 2.0 * omega_rad_s);
+        sensors.iter().map(|&m| self.sensors[m][i] * self.load[i] / over).collect()
+    }
+
     /// None of them: a model without errors.
     pub(crate) fn none(model: &Projection) -> Self {
         Self {

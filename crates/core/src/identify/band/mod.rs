@@ -52,8 +52,8 @@ use search_box::near_or_far;
 ///
 /// With the subspace (B-3) every answer carries its reduction error; where it cannot be built, the full model answers. The joint selection (B-4, B-5) finds
 /// every solution within the bounds at every sensor, fits it to all sensors, and chooses one path through all; the other one is
-/// [`crate::identify::identify_at`] at each frequency. Answers are searched within a factor of four of the nominal, and in the whole of the bounds where that
-/// leaves most of the band without any.
+/// [`crate::identify::identify_at`] at each frequency. Answers are searched within a factor of four of the nominal, of where natural frequencies say
+/// that it is, or in the whole of the bounds where that leaves most of the band without any.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.

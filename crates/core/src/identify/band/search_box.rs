@@ -9,7 +9,6 @@ use crate::identify::choice::{Reduction, Selection};
 use crate::identify::context::Context;
 use crate::identify::dead_channel::dead_channels;
 use crate::identify::far_nominal::{MeasuredShapes, are_stiffnesses};
-use crate::identify::goodness_of_fit::Explained;
 use crate::identify::measured::Band;
 use crate::identify::noise::{standard_deviations, without};
 use crate::identify::options::Options;
@@ -39,7 +38,7 @@ pub(super) fn near_or_far<'a, 'o, T>(
     context: Context<'_>,
     mut run: impl FnMut(&Options, &mut Option<Neighbourhoods<'a, 'o>>) -> (BandOutcome, T),
 ) -> (BandOutcome, T, Options) {
-    let (mut found, mut more) = run(near, reduced);
+    let (found, more) = run(near, reduced);
     if near.selection != Selection::Joint || near.whole_box {
         return (found, more, *near);
     }
@@ -71,26 +70,22 @@ pub(super) fn near_or_far<'a, 'o, T>(
         Some(_) => 2 * other.answered() > found.answered(),
         None => other.answered() > found.answered() && (is_bounded || is_certain(other)),
     };
-    let mut options = far;
-    match other.filter(|other| is_better(&other.0)) {
-        Some(better) => {
-            let own = found.work;
-            (found, more) = better;
-            found.work = own;
-        }
+    let better = other.filter(|other| is_better(&other.0));
+    let mut both = found.work;
+    both += spent;
+    match better {
+        Some((other, more)) => (BandOutcome { work: both, ..other }, more, far),
         None => {
-            options = *near;
             reduced.iter_mut().for_each(|reduced| reduced.look_in(near));
+            (BandOutcome { work: both, ..found }, more, *near)
         }
     }
-    found.work += spent;
-    (found, more, options)
 }
 
 /// Whether nearly all frequencies have an answer on which several sensors agree.
 fn is_certain(found: &BandOutcome) -> bool {
     let answered = found.answered() as f64 >= USUAL_ANSWERED * found.lines.len() as f64;
-    answered && found.fit.is_some_and(|fit| matches!(fit.verdict, Explained::Yes | Explained::Nearly))
+    answered && found.fit.is_some_and(|fit| fit.is_explained())
 }
 
 /// By which factor the nominal is far off, where natural frequencies say that it is.

@@ -5,7 +5,6 @@
 use super::Search;
 use super::search::{Fitting, Place};
 use super::tuned::MAX_SHARE;
-use crate::c64;
 use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
 use crate::modal::{MeasuredMode, Pair, PairedShape, paired};
@@ -80,8 +79,7 @@ impl Search<'_, '_> {
         let ln_ratio = |&j: &usize| (values[j].re / self.values_of_modes[j].re).ln();
         let mean = smooth.iter().map(ln_ratio).sum::<f64>() / smooth.len() as f64;
         let omega = omega * (0.5 * energy_share * mean).exp();
-        let residue = |&m: &usize| modes.sensors[m][mode] * modes.load[mode] / c64::new(0.0, 2.0 * omega);
-        let residues = sensors.iter().map(residue).collect();
+        let residues = modes.residues(mode, omega, sensors);
         omega.is_finite().then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
     }
 

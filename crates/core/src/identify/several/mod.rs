@@ -39,7 +39,6 @@ use super::channel::Calibration;
 use super::context::Context;
 use super::dead_channel::dead_channels;
 use super::far_nominal::{Far, MeasuredShapes, are_stiffnesses};
-use super::goodness_of_fit::{Explained, GoodnessOfFit};
 use super::noise::{NoiseLevel, standard_deviations, without};
 use super::options::Options;
 use super::outcome::Line;
@@ -176,8 +175,7 @@ impl Task<'_, '_> {
 
     /// By which factors nominal values are far off, where the band is not explained and natural frequencies say that all stiffnesses together are, or a single one.
     fn far(&self, reduced: &Neighbourhoods<'_>, found: &Searched) -> Option<Vec<f64>> {
-        let is_explained = |fit: GoodnessOfFit| matches!(fit.verdict, Explained::Yes | Explained::Nearly);
-        if found.right.fit.is_some_and(is_explained) {
+        if found.right.fit.is_some_and(|fit| fit.is_explained()) {
             return None;
         }
         let Problem { model, unknowns, frfs, .. } = self.problem;
@@ -186,6 +184,9 @@ impl Task<'_, '_> {
             Dependence::Powers(_) => false,
         };
         let all: Vec<usize> = (0..unknowns.len()).filter(is_stiffness).collect();
+        if all.is_empty() {
+            return None;
+        }
         let single = all.iter().map(|&j| vec![j]).filter(|_| all.len() > 1);
         let measured = (frfs.receptance, self.sigma.as_slice());
         let for_each = self.context.for_each;
