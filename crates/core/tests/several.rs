@@ -366,6 +366,43 @@ fn a_constant_stops_at_its_bounds() {
     );
 }
 
+/// A modulus known to a per cent whose loss factor noise leaves unknown, away from the resonances of a lightly damped plate: the modulus and the density are `ok`, also where
+/// the loss factor stops at a bound, and the true modulus is within its error bar. Of a loss factor that is known a bound binds.
+#[test]
+fn a_constant_is_known_though_its_loss_factor_is_not() {
+    let case = plate(6, 0.4, 1e-2);
+    let frequency_hz = linear_hz(100.0, 2500.0, 24);
+    let identified = |eta: f64, noise: f64, bounds: [f64; 2]| {
+        let factors = [c(1.8e11, 1.8e11 * eta), c(7400.0, 0.0)].map(Law::Constant);
+        let exact = direct(&case.model, &case.experiment, &factors, &frequency_hz);
+        let (measured, std) = noisy(&exact, noise, 5);
+        let modulus = Unknown {
+            bounds: Bounds { storage: Some([1e11, 3e11]), loss_factor: Some(bounds) },
+            varies: Variation::Constant,
+            ..Unknown::factor_of(&case.model, &["stiffness"]).unwrap()
+        };
+        let found = run(&Setup {
+            model: &case.model,
+            experiment: &case.experiment,
+            unknowns: &[modulus, constant("density", Dependence::Factor(vec![1]), 7800.0, [5000.0, 10000.0])],
+            frequency_hz: &frequency_hz,
+            measured: &measured,
+            noise: Noise::Known(&std),
+        });
+        let [storage, loss_factor] = found.constants[0].numbers.as_slice() else { panic!() };
+        assert!((storage.value - 1.8e11).abs() < 3.0 * storage.std.unwrap(), "{storage:?}");
+        let ok = found.lines.iter().filter(|line| line.status == Status::Ok).count();
+        (found.constants[0].status, loss_factor.value, loss_factor.std.unwrap(), ok)
+    };
+    for bounds in [[0.0, 0.1], [0.0, 5e-4]] {
+        let (status, eta, std, ok) = identified(1e-3, 0.1, bounds);
+        assert!(std > 0.5 * eta, "{bounds:?}: {eta} {std}");
+        assert!(status == Status::Ok && ok > 20, "{bounds:?}: {status:?}, {ok} of 24");
+    }
+    let (status, _, std, ok) = identified(2e-2, 0.01, [0.0, 1.5e-2]);
+    assert!(status == Status::NoRoot && ok == 0, "{status:?}, {std}, {ok} of 24");
+}
+
 /// Of five sensors one measures half of what it should: it is named and left out, and the unknowns are right without it; kept, it
 /// leaves the band unexplained. Without a fault no sensor is named.
 #[test]

@@ -8,7 +8,6 @@ use super::model_errors::{Leverage, ModelErrorsFound};
 use super::noise::NoiseLevel;
 use super::outcome::{Line, Status};
 use super::several::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
-use super::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -170,21 +169,12 @@ impl From<LawsOutcome> for Identification {
 /// The law of a single unknown as what holds for the band.
 fn of_law(fit: &LawFit, band: Option<GoodnessOfFit>) -> BandValue {
     let number = |one: &Estimate| Number { name: one.name.clone(), value: one.value, std: one.std };
-    let is_known = |one: &Estimate| {
-        let least = if one.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
-        one.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * one.value.abs().max(least))
-    };
+    let numbers: Vec<Number> = fit.parameters.iter().map(number).collect();
     let status = Status::of([
-        (!fit.parameters.iter().all(is_known), Status::NotIdentifiable),
+        (!numbers.iter().all(Number::is_identifiable), Status::NotIdentifiable),
         (!fit.converged, Status::Failed),
     ]);
-    BandValue {
-        unknowns: 0,
-        numbers: fit.parameters.iter().map(number).collect(),
-        law: fit.law.clone(),
-        at_bound: false,
-        status: status.within(band),
-    }
+    BandValue { unknowns: 0, numbers, law: fit.law.clone(), at_bound: false, status: status.within(band) }
 }
 
 impl From<SeveralOutcome> for Identification {

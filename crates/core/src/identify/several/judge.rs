@@ -180,19 +180,17 @@ impl Task<'_, '_> {
             };
             let unknowns = &self.problem.unknowns[one.unknowns];
             let middle = self.problem.frfs.frequency_hz[self.omegas.len() / 2];
-            // Constants stop at their bounds; of a law the modulus is compared with them.
-            let at_bound = one.range.clone().any(|c| binding.contains(&c))
-                || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some())
-                || (errors.is_some()
-                    && numbers.iter().any(|number| is_beside_bound(number, &unknowns.bounds)));
-            let is_known = |number: &Number| {
-                let least = if number.name == "loss_factor" { MIN_KNOWN_LOSS_FACTOR } else { 0.0 };
-                number.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * number.value.abs().max(least))
+            // Constants stop at their bounds, and each of their coordinates is a number; of a law the modulus is compared with them. A loss factor that is not known has no
+            // value that could break a bound.
+            let stops = |(c, number): (usize, &Number)| {
+                let is_beside = errors.is_some() && is_beside_bound(number, &unknowns.bounds);
+                (binding.contains(&c) || is_beside) && !number.is_unknown_loss_factor()
             };
-            // What is not identifiable has no value that could break a bound.
+            let at_bound = one.range.clone().zip(&numbers).any(stops)
+                || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
             let status = Status::of([
                 (answered == 0, Status::NoRoot),
-                (!numbers.iter().all(is_known), Status::NotIdentifiable),
+                (!numbers.iter().all(Number::is_identifiable), Status::NotIdentifiable),
                 (!found.converged, Status::Failed),
                 (at_bound, Status::NoRoot),
             ]);

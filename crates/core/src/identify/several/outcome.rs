@@ -5,6 +5,7 @@ use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
 use crate::identify::model_errors::{Leverage, ModelErrorsFound};
 use crate::identify::noise::NoiseLevel;
 use crate::identify::outcome::{Line, Status};
+use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::material::Law;
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -20,6 +21,27 @@ pub struct Number {
     pub std: Option<f64>,
 }
 
+impl Number {
+    /// Whether it is a loss factor, beside the storage part of the same constant.
+    fn is_loss_factor(&self) -> bool {
+        self.name == "loss_factor"
+    }
+
+    /// Whether it is a loss factor that noise leaves unknown.
+    pub(in crate::identify) fn is_unknown_loss_factor(&self) -> bool {
+        self.is_loss_factor() && !self.is_known_beside(self.value.abs().max(MIN_KNOWN_LOSS_FACTOR))
+    }
+
+    /// Whether noise leaves the unknown known, as far as it depends on this number: a loss factor is compared with one, since it is a share of the storage part.
+    pub(in crate::identify) fn is_identifiable(&self) -> bool {
+        self.is_known_beside(self.value.abs().max(if self.is_loss_factor() { 1.0 } else { 0.0 }))
+    }
+
+    fn is_known_beside(&self, size: f64) -> bool {
+        self.std.is_some_and(|std| std <= KNOWN_RELATIVE_STD * size)
+    }
+}
+
 /// An unknown that holds for the whole band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandValue {
@@ -31,7 +53,7 @@ pub struct BandValue {
     pub law: Law,
     /// Whether it is at one of its bounds, beyond which the misfit is less.
     pub at_bound: bool,
-    /// `ok`; `not_identifiable` where its standard deviation is above 30 %; `failed` where the search did not converge; `no_root` where it is at its bounds, or nothing was
+    /// `ok`; `not_identifiable` where its standard deviation is above 30 %, that of a loss factor above 0.3; `failed` where the search did not converge; `no_root` where it is at its bounds, or nothing was
     /// found at any frequency; `unexplained` where the band is not explained.
     pub status: Status,
 }
