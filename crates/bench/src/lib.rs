@@ -6,6 +6,7 @@
 
 pub mod cases;
 pub mod clock;
+pub mod data;
 mod exponent;
 pub mod faults;
 mod machine;
@@ -13,10 +14,14 @@ pub mod measurement;
 pub mod memory;
 mod output;
 mod panel;
+pub mod plates;
 mod score;
 mod stages;
 mod table;
 mod task;
+#[cfg(test)]
+#[path = "../../core/tests/tier/mod.rs"]
+mod tier;
 pub mod wrong_models;
 pub mod zoo;
 

@@ -17,7 +17,6 @@ mod outside;
 mod picture;
 mod sensitivities;
 mod shared_data;
-mod spruce;
 mod thickness;
 #[path = "../../core/tests/tier/mod.rs"]
 mod tier;

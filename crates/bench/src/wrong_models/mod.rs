@@ -15,6 +15,8 @@ pub mod case;
 pub mod dice;
 pub mod fault;
 pub mod natural;
+#[cfg(test)]
+mod pairs;
 pub mod realised;
 pub mod report;
 pub mod score;

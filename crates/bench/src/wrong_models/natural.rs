@@ -86,7 +86,7 @@ pub fn errors(model: &[Mode], truth: &[Mode]) -> Vec<[f64; 2]> {
     model.iter().filter_map(error).collect()
 }
 
-fn assurance(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn assurance(a: &[f64], b: &[f64]) -> f64 {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     dot(a, b).powi(2) / (dot(a, a) * dot(b, b)).max(f64::MIN_POSITIVE)
 }

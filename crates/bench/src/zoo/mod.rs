@@ -26,13 +26,9 @@ pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
 }
 
 #[cfg(test)]
-#[path = "../../../core/tests/tier/mod.rs"]
-mod tier;
-
-#[cfg(test)]
 mod tests {
-    use super::tier::of_tier;
     use super::tried;
+    use crate::tier::of_tier;
 
     /// Cases in which the right answer was refused by accident, (seed, case): an exact one with a rival that the Krylov space had not settled, a training that
     /// had stopped before it had anything, solutions beside poles that no noise moves, and a nominal too far for a Krylov space.

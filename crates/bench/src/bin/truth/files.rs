@@ -5,10 +5,11 @@ use frfit::frequency::omega_rad_s;
 use frfit::material::{Law, Table};
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit_bench::Structure;
+use frfit_bench::data::{absent, data};
 use frfit_linalg::sparse::SymmetricMatrix;
 use frfit_workflow::load::symmetric_matrix;
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// Matrices with their roles; the first stands behind the unknown factor, that of the others is 1.
@@ -103,15 +104,6 @@ pub(crate) fn zener(frequency_hz: &[f64]) -> Result<Law, Box<dyn Error>> {
         (g0 + g_infinity * power) / (1.0 + power)
     };
     Ok(Law::Table(Table::new(frequency_hz.to_vec(), frequency_hz.iter().map(at).collect())?))
-}
-
-fn data() -> PathBuf {
-    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
-    std::env::var_os("FRFIT_DATA").map_or_else(|| PathBuf::from(beside), PathBuf::from)
-}
-
-fn absent(path: &Path) -> String {
-    format!("no {} (set FRFIT_DATA)", path.display())
 }
 
 fn matrix(path: &Path) -> Result<SymmetricMatrix, Box<dyn Error>> {
