@@ -1,6 +1,7 @@
 //! Estimators of the frequency response function, and how sure they are.
 
 use super::spectra::Spectra;
+use super::variance::variances;
 use crate::c64;
 use std::fmt;
 use std::str::FromStr;
@@ -66,24 +67,10 @@ pub struct Frf {
     pub response: Vec<c64>,
     /// Coherence γ² = |S_fx|²/(S_ff S_xx). `None` of a single impact, of which it is 1 whatever was measured.
     pub coherence: Option<Vec<f64>>,
-    /// Variance of the real and of the imaginary part, B-6 ([`variance`]); `None` without a coherence.
+    /// Variance of the real and of the imaginary part, B-6 ([`variances`]); `None` without a coherence.
     pub variance: Option<Vec<f64>>,
     /// √(Σ|X|²/n) of the response's transform over that of the force: the gain that the spectra alone show.
     pub gain: Vec<f64>,
-}
-
-/// B-6, the variance of the real part of an FRF, and as much of its imaginary part:
-/// $$ \sigma_H^2 = |H|^2 \frac{1 - \gamma^2}{2 n \gamma^2}, $$
-/// n the number of averages. The complex value has √E|δH|² = √2 σ_H. Infinite where γ² = 0.
-///
-/// # Limits
-/// Noise in the response that does not depend on the force, circular. γ² itself is estimated: with n averages the mean of (1 − γ²)/γ² is
-/// (n − 1)/n times what it should be, so that σ² of three impacts is a third too small.
-///
-/// # Source
-/// J. S. Bendat, A. G. Piersol, *Random Data*, 4th ed., Wiley 2010, section 9.2.
-pub fn variance(response: c64, coherence: f64, averages: usize) -> f64 {
-    response.norm_sqr() * (1.0 - coherence) / (2.0 * averages as f64 * coherence)
 }
 
 pub(super) fn frf(
@@ -109,11 +96,8 @@ pub(super) fn frf(
     let coherence: Option<Vec<f64>> = (averages > 1).then(|| {
         lines.iter().map(|&k| (cross[k].norm_sqr() / (spectra.force[k] * sum[k])).min(1.0)).collect()
     });
-    let variances = |coherence: &Vec<f64>| {
-        values.iter().zip(coherence).map(|(&value, &c)| variance(value, c, averages)).collect()
-    };
     Frf {
-        variance: coherence.as_ref().map(variances),
+        variance: coherence.as_ref().map(|coherence| variances(&values, coherence, averages)),
         coherence,
         gain: lines.iter().map(|&k| (sum[k] / spectra.force[k]).sqrt()).collect(),
         response: values,

@@ -22,15 +22,17 @@ mod pulse;
 mod recording;
 mod spectra;
 mod unit;
+mod variance;
 mod window;
 
 pub use channel::Channel;
-pub use estimate::{Estimator, Frf, UnknownEstimator, variance};
+pub use estimate::{Estimator, Frf, UnknownEstimator};
 pub use fault::Fault;
 pub use impact::Impact;
 pub use options::{Options, OptionsError};
 pub use recording::{Recording, RecordingError};
 pub use unit::{Kind, Sensitivity, SensitivityError, Unit, UnknownUnit};
+pub use variance::{relative_variance, variances};
 pub use window::{Windows, added_decay, added_loss_factor};
 
 use spectra::Spectra;

@@ -6,7 +6,7 @@ use crate::case::{CaseFile, RespondEntry, checked_band};
 use crate::error::{InputError, Place};
 use frfit::c64;
 use frfit::frequency::{linear_hz, omega_rad_s};
-use frfit::signal::variance;
+use frfit::signal::{relative_variance, variances};
 use frfit_formats::FormatError;
 
 /// How far two measurements' frequencies may differ and be the same: well above the rounding of 12 digits, well below
@@ -124,7 +124,6 @@ pub(super) fn band(
         let frf = &curve.frf;
         let sensor = known.len();
         let rows = || rows.iter().map(|rows| rows[sensor]);
-        let picked = |column: &Vec<f64>| rows().map(|row| column[row]).collect::<Vec<_>>();
         let quantity = measurement.info.quantity;
         for ((row, &f), values) in rows().zip(&frequency_hz).zip(&mut measured) {
             // A late channel has the phase e^{-iωτ}; what a window makes of its delay, e^{-ατ}, is part of the scale.
@@ -137,21 +136,17 @@ pub(super) fn band(
             }
             values.push(receptance);
         }
-        let std = frf.std.as_ref().map(picked).map(|std| {
-            let per_receptance =
-                frequency_hz.iter().map(|&f| quantity.over_receptance_windowed(f, decay_per_s).norm());
-            std.into_iter()
-                .zip(per_receptance)
-                .map(|(std, factor)| std * curve.scale.abs() / factor)
-                .collect()
-        });
-        let coherence: Option<Vec<f64>> = frf.coherence.as_ref().map(picked);
-        let by_averages = |averages: usize| -> Option<Vec<f64>> {
-            let values = coherence.as_ref()?.iter().zip(&measured);
-            Some(values.map(|(&gamma, u)| deviation(gamma, averages, u[sensor])).collect())
+        let receptance_std = |std: &Vec<f64>| -> Vec<f64> {
+            let over_receptance = |f: f64| quantity.over_receptance_windowed(f, decay_per_s).norm();
+            let rows = rows().zip(&frequency_hz);
+            rows.map(|(row, &f)| std[row] * curve.scale.abs() / over_receptance(f)).collect()
         };
-        known.push(std.or_else(|| by_averages(curve.averages?)));
-        relative.push(by_averages(1));
+        let relative_std = |coherence: &Vec<f64>| {
+            let each = frf.response.iter().zip(coherence);
+            each.map(|(&h, &gamma)| std_of(relative_variance(h, within(gamma)))).collect::<Vec<f64>>()
+        };
+        relative.push(frf.coherence.as_ref().map(relative_std).as_ref().map(receptance_std));
+        known.push(frf.std.clone().or_else(|| by_averages(curve)).as_ref().map(receptance_std));
     }
     let by_frequency = |columns: Vec<Option<Vec<f64>>>| -> Option<Vec<Vec<f64>>> {
         let columns: Vec<Vec<f64>> = columns.into_iter().collect::<Option<_>>()?;
@@ -165,11 +160,20 @@ pub(super) fn band(
     Ok(Band { frequency_hz, not_common, measured, noise })
 }
 
-/// √E|δH|² of the complex value from the coherence γ² of n averages: |H|√((1 − γ²)/(nγ²)), B-6 for both parts together.
-fn deviation(coherence: f64, averages: usize, response: c64) -> f64 {
-    // No coherence is exactly one, nor does zero say more than that nothing was measured.
-    let coherence = coherence.clamp(1e-9, 1.0 - 1e-9);
-    (2.0 * variance(response, coherence, averages)).sqrt()
+/// √E|δH|² of the complex values of a curve from their coherence and the number of averages, B-6 for both parts together.
+fn by_averages(curve: &Curve) -> Option<Vec<f64>> {
+    let coherence: Vec<f64> = curve.frf.coherence.as_ref()?.iter().copied().map(within).collect();
+    let variances = variances(&curve.frf.response, &coherence, curve.averages?);
+    Some(variances.into_iter().map(std_of).collect())
+}
+
+/// No coherence is exactly one, nor does zero say more than that nothing was measured.
+fn within(coherence: f64) -> f64 {
+    coherence.clamp(1e-9, 1.0 - 1e-9)
+}
+
+fn std_of(variance: f64) -> f64 {
+    (2.0 * variance).sqrt()
 }
 
 /// The measurements have no frequency in common: the first that lacks one, and the nearest that it has.

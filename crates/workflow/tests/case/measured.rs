@@ -75,10 +75,10 @@ fn a_coherence_record_belongs_to_the_frf_between_its_degrees_of_freedom() {
         identify.measured[k][0].norm() * (factor / averages).sqrt()
     };
     (0..2).for_each(|k| assert!((std[k][0] / expected(k, 1.0) - 1.0).abs() < 1e-14));
-    // With the number of averages it is known.
-    let case = measured(&both.concat(), &format!("{keys}averages = 7\n")).unwrap();
+    // With the number of averages it is known: of so many each line says enough by itself.
+    let case = measured(&both.concat(), &format!("{keys}averages = 101\n")).unwrap();
     let MeasuredNoise::Known(std) = case.identify.unwrap().noise else { panic!() };
-    (0..2).for_each(|k| assert!((std[k][0] / expected(k, 7.0) - 1.0).abs() < 1e-14));
+    (0..2).for_each(|k| assert!((std[k][0] / expected(k, 100.0 / 1.01) - 1.0).abs() < 1e-14));
     // Without one of its own there is none; two of them contradict each other.
     let without = [file(&[coherence((2, 4), (1, 3), [0.1; 3])]), several()];
     let twice =
