@@ -201,6 +201,9 @@ fn doubts(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     channels(text, job, identify);
     fit(text, job);
     modes(text, &job.summary["modes"]);
+    if let Some(sentence) = far_nominals(&found.search.about, identify) {
+        text.say("nominal", &sentence);
+    }
     if !found.search.converged {
         text.warn("search", "did not settle: more frequencies, sensors or narrower bounds may help");
     }
@@ -493,6 +496,19 @@ fn breaches(job: &IdentifyJob) -> Vec<String> {
         )
     };
     job.run.found.causality_breaches.iter().map(one).collect()
+}
+
+/// Of which unknowns the nominal values are far off, and by how much.
+fn far_nominals(factors: &[f64], identify: &IdentifyCase) -> Option<String> {
+    let far = identify.unknowns.iter().zip(factors).filter(|(_, factor)| **factor != 1.0);
+    let each: Vec<String> =
+        far.map(|(one, factor)| format!("{factor:.2} times that of {}", one.name)).collect();
+    (!each.is_empty()).then(|| {
+        format!(
+            "far off: the measured natural frequencies are those of {}, and the search began there",
+            each.join(", ")
+        )
+    })
 }
 
 /// What was found of channels whose scale or delay was unknown.

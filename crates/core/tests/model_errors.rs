@@ -546,8 +546,11 @@ fn far_nominals_of_constants_are_found_by_natural_frequencies() {
             assert!(off < 3.0, "× {beam}, {springs}: {off} {number:?}");
         }
         assert!(found.constants.iter().all(|value| value.status == Status::Ok), "× {beam}, {springs}");
-        // What was given stays the nominal value.
+        // What was given stays the nominal value, and what it was off by is said.
         assert_eq!(found.lines[0].values[0].nominal, nominal[0]);
+        let off = [beam, springs].into_iter().zip(&found.search.about).map(|(given, about)| given * about);
+        let off: Vec<f64> = off.collect();
+        assert!(off.len() == 2 && off.iter().all(|off| (0.7..1.4).contains(off)), "{off:?}");
     }
 }
 

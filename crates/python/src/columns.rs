@@ -167,6 +167,7 @@ fn search(found: &Bound<'_, PyDict>, computed: &Computed) -> PyResult<()> {
     found.set_item("converged", run.search.converged)?;
     found.set_item("starts", run.search.starts)?;
     found.set_item("agreeing", run.search.agreeing)?;
+    found.set_item("search_about", run.search.about.clone())?;
     found.set_item("explored", run.search.explored)?;
     found.set_item("subspace_size", run.search.reduced_size)?;
     found.set_item("factorisations", run.search.work.factorisations)?;

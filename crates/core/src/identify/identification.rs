@@ -68,6 +68,9 @@ pub struct SearchReport {
     pub reduced_size: Option<usize>,
     /// Frequencies at which all solutions were searched; at the others those of their neighbours were followed.
     pub explored: usize,
+    /// Factors on the nominal values of the unknowns about which was searched, where natural frequencies had shown that they are far off; empty where
+    /// they had not.
+    pub about: Vec<f64>,
     /// Starts that were followed for several unknowns.
     pub starts: usize,
     /// How many of them ended at the result.
@@ -121,12 +124,14 @@ impl From<BandOutcome> for Identification {
             sensors,
             model_errors,
             leverage,
+            about,
             ..
         } = band;
         let search = SearchReport {
             work,
             reduced_size: subspace_size,
             explored,
+            about: about.into_iter().collect(),
             converged: true,
             ..SearchReport::default()
         };
@@ -194,11 +199,13 @@ impl From<SeveralOutcome> for Identification {
             leverage,
             ..
         } = several;
-        let SeveralOutcome { converged, starts, agreeing, work, subspace_size, breakdown, .. } = several;
+        let SeveralOutcome { converged, about, starts, agreeing, work, subspace_size, breakdown, .. } =
+            several;
         let search = SearchReport {
             work,
             reduced_size: breakdown.is_none().then_some(subspace_size),
             explored: 0,
+            about,
             starts,
             agreeing,
             converged,

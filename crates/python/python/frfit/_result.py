@@ -250,6 +250,8 @@ class Identification:
     """Starts that were followed for several unknowns."""
     agreeing: int
     """How many of them ended at the result."""
+    search_about: tuple[float, ...]
+    """Factors on the nominal values, one for each unknown, about which was searched, where natural frequencies had shown that the nominal values are far off; else empty."""
     explored: int
     """Frequencies at which all solutions were searched."""
     subspace_size: int | None
@@ -269,7 +271,7 @@ class Identification:
     def _of(cls, found: dict[str, Any], folder: pathlib.Path | None = None) -> Identification:
         """From what the compiled part gives."""
         found["status"] = np.array(found["status"], dtype=np.str_)
-        for name in ("sensors", "coordinates", "not_identifiable"):
+        for name in ("sensors", "coordinates", "not_identifiable", "search_about"):
             found[name] = tuple(found[name])
         found["unknowns"] = tuple(Estimate._of(one) for one in found["unknowns"])
         found["directions"] = tuple(Direction(std, dict(weights)) for std, weights in found["directions"])

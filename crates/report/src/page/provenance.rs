@@ -184,6 +184,13 @@ fn computation(results: &Results) -> Vec<Row> {
             format!("{starts}, of which {agreeing} ended at this result"),
         ));
     }
+    let about: Vec<String> = (summary.array("/search/about").iter())
+        .filter_map(|factor| Some(significant(factor.as_f64()?, 3)))
+        .collect();
+    if !about.is_empty() {
+        let what = "times the nominal values, where natural frequencies are the measured ones";
+        rows.push(("Searched about".into(), format!("{} {what}", about.join(", "))));
+    }
     for (key, what) in [
         ("load", "reading"),
         ("check", "check of the data"),

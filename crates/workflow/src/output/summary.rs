@@ -72,6 +72,7 @@ pub fn summary_json(
         "spectral_radius": spread(run, |line| line.spectral_radius),
         "search": {
             "converged": found.search.converged, "starts": found.search.starts, "agreeing": found.search.agreeing,
+            "about": found.search.about,
         },
         "counts": {
             "factorisations": found.search.work.factorisations,

@@ -106,6 +106,7 @@ pub(super) fn identify<'a>(
         model_errors: None,
         leverage: Vec::new(),
         other_model: false,
+        about: None,
     }
 }
 

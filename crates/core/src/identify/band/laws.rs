@@ -181,6 +181,7 @@ pub(in crate::identify) fn identify_laws<'a>(
             None => BandOutcome {
                 leverage: free.leverage,
                 other_model: free.other_model,
+                about: free.about,
                 ..joint::identify(&view, &at, whole.as_mut(), &[], options, context)
             },
         };

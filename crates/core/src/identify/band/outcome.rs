@@ -31,6 +31,8 @@ pub(in crate::identify) struct BandOutcome {
     pub leverage: Vec<Leverage>,
     /// Whether a model with large errors explains the band far better: it is another one.
     pub other_model: bool,
+    /// The factor on the nominal value about which was searched, where natural frequencies had shown it to be far off.
+    pub about: Option<f64>,
 }
 
 impl BandOutcome {

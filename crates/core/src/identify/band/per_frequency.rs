@@ -63,6 +63,7 @@ pub(super) fn identify(
                 model_errors: None,
                 leverage: Vec::new(),
                 other_model: false,
+                about: None,
             }
         }
         None => {
@@ -88,6 +89,7 @@ pub(super) fn identify(
                 model_errors: None,
                 leverage: Vec::new(),
                 other_model: false,
+                about: None,
             }
         }
     }

@@ -74,7 +74,7 @@ pub(super) fn near_or_far<'a, 'o, T>(
     let mut both = found.work;
     both += spent;
     match better {
-        Some((other, more)) => (BandOutcome { work: both, ..other }, more, far),
+        Some((other, more)) => (BandOutcome { work: both, about: by_modes, ..other }, more, far),
         None => {
             reduced.iter_mut().for_each(|reduced| reduced.look_in(near));
             (BandOutcome { work: both, ..found }, more, *near)

@@ -221,6 +221,7 @@ impl Task<'_, '_> {
             model_errors: None,
             leverage: Vec::new(),
             converged: found.converged,
+            about: Vec::new(),
             starts: found.starts.len(),
             agreeing: found.agreeing,
             work: reduced.work(),

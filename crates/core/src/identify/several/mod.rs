@@ -112,6 +112,7 @@ pub(super) fn identify_several<'a>(
             let mut reduced = Neighbourhoods::new(subspace, problem, &nominal, context);
             let mut found = task.searched(&mut reduced);
             let moved: Vec<Vec<c64>>;
+            let mut about = Vec::new();
             let mut task = task;
             if let Some(factors) = task.far(&reduced, &found) {
                 let times = |values: &Vec<c64>| values.iter().zip(&factors).map(|(p, f)| p * f).collect();
@@ -122,9 +123,11 @@ pub(super) fn identify_several<'a>(
                 }
                 task = Task { nominal: &moved, ..task };
                 found = task.searched(&mut reduced);
+                about = factors;
             }
             let kept = task.leaving_out(&found.left_out);
             let mut outcome = kept.correct(&mut reduced, &found.solution, found.right);
+            outcome.about = about;
             outcome.sensors = kept.sensor_fits(&task.sigma, &found.contradicting, &outcome);
             *trained = Some(reduced.into_subspace());
             outcome
@@ -235,6 +238,7 @@ impl Task<'_, '_> {
             model_errors: None,
             leverage: Vec::new(),
             converged: false,
+            about: Vec::new(),
             starts: 0,
             agreeing: 0,
             work: Work { factorisations: 2, solves: 0 },

@@ -120,6 +120,8 @@ pub(in crate::identify) struct SeveralOutcome {
     pub(in crate::identify) leverage: Vec<Leverage>,
     /// Whether the search settled.
     pub(in crate::identify) converged: bool,
+    /// Factors on the nominal values about which was searched, where they are far off; else empty.
+    pub(in crate::identify) about: Vec<f64>,
     /// Starts that were followed, and how many of them ended at the answer.
     pub(in crate::identify) starts: usize,
     /// See [`Self::starts`].
