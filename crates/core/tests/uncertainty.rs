@@ -16,6 +16,7 @@ use frfit::model::{DynamicStiffness, Parameter, Role, Sensor, Term};
 use frfit::rational::RationalResponse;
 use frfit::response::FullModel;
 use frfit::roots::Bounds;
+use frfit::signal::variances;
 use std::f64::consts::TAU;
 
 /// The same numbers each time.
@@ -247,6 +248,54 @@ fn bounded(case: &Case) -> Setup {
     let [low, high] = case.band_hz.map(|f| nominal.at(f).unwrap().re);
     let bounds = Bounds { storage: Some([low / 3.0, high * 3.0]), loss_factor: Some([0.0, 2.0]) };
     Setup::within(bounds)
+}
+
+/// Noise from the coherence of two, three and five averages, in proportion to the response and of one size: the right model is explained, has no errors that it does
+/// not have, and bars that cover the truth.
+#[test]
+fn noise_of_few_averages_leaves_a_right_model_right() {
+    let case = springs();
+    let truth = case.parameter.nominal.clone();
+    let nominal = truth.at(5.0).unwrap().re;
+    let frequency_hz = linear_hz(2.0, 12.0, 300);
+    for averages in [2, 3, 5] {
+        for floor in [0.0, 1.0] {
+            let mut one = Measured::clean(&case, frequency_hz.clone(), 1.0, 0.03);
+            let sizes = one.u.iter().flatten().map(|u| u.norm()).collect::<Vec<_>>();
+            let least = 0.03 * floor * mean(sizes.into_iter());
+            one.std.iter_mut().flatten().for_each(|std| *std = std.max(least));
+            let all: Vec<Vec<Vec<c64>>> = (0..averages).map(|k| one.drawn(10 * averages + k)).collect();
+            let count = averages as f64;
+            let at = |k: usize, m: usize| all.iter().map(move |u| u[k][m]);
+            let (lines, sensors) = (frequency_hz.len(), one.u[0].len());
+            let u: Vec<Vec<c64>> =
+                (0..lines).map(|k| (0..sensors).map(|m| at(k, m).sum::<c64>() / count).collect()).collect();
+            let mut std = vec![Vec::new(); lines];
+            for m in 0..sensors {
+                let column: Vec<c64> = u.iter().map(|u| u[m]).collect();
+                let square = |k: usize| at(k, m).map(|u| u.norm_sqr()).sum::<f64>() / count;
+                let coherence: Vec<f64> = (0..lines).map(|k| column[k].norm_sqr() / square(k)).collect();
+                let found = variances(&column, &coherence, averages as usize);
+                std.iter_mut().zip(found).for_each(|(std, found)| std.push((2.0 * found).sqrt()));
+            }
+            let found = identify(&case, &one, &u, Noise::Known(&std), &within(nominal, 1.25));
+            let at = format!("{averages} averages, floor {floor}: {:?}", found.fit);
+            assert_eq!(found.fit.unwrap().verdict, Explained::Yes, "{at}");
+            assert!(found.model_errors.is_none(), "{at}: {:?}", found.model_errors);
+            let ok: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
+            let covers = |line: &&&Line| {
+                let off = line.storage().unwrap() - truth.at(line.frequency_hz).unwrap().re;
+                off.abs() <= 2.0 * line.uncertainty().unwrap().storage_std
+            };
+            let share = ok.iter().filter(covers).count() as f64 / ok.len() as f64;
+            // The variance of a line is known to a seventh.
+            assert!(
+                10 * ok.len() > 9 * lines && (0.91..0.985).contains(&share),
+                "{at}: {} ok, {share}",
+                ok.len()
+            );
+        }
+    }
 }
 
 /// 20 seeds (of the daily tier: one) of a band at 0.1 %, 1 % and 5 % noise: what is called ok has the truth within two standard deviations 95 times of 100.
