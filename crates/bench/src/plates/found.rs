@@ -147,16 +147,18 @@ impl Found {
         pairs.map(|(a, b)| of(a) * of(b) * self.correlation[a][b]).sum::<f64>().max(0.0).sqrt()
     }
 
-    /// Of the responses that other impacts have measured, the share within the 95 % of what the model predicts.
+    /// Of the responses that other impacts have measured, the share within the 95 % of what the model predicts: |δ|² ≤ −ln 0.05 (σ² + σ₀² + σ_r²), of the noise
+    /// of either set of impacts and of what neither noise nor errors of the model explain.
     ///
-    /// The variance of a complex difference is σ² + σ_r², of the measured noise and of what neither noise nor errors of the model explain. σ² comes from n impacts, with
-    /// 2(n − 1) degrees of freedom, the sum with ν = 2(n − 1) (σ² + σ_r²)²/σ⁴ of Welch and Satterthwaite. So |z|² has the distribution F(2, ν), whose 95 % end at
-    /// (ν/2) (0.05^(−2/ν) − 1).
-    pub fn covers(&self, other: &Self, impacts: usize) -> Option<f64> {
+    /// Impacts differ in how they excite each mode, which the model follows: so their own noise counts too.
+    pub fn covers(&self, other: &Self) -> Option<f64> {
         let (Some(own), Some(measured)) = (&self.job.case.identify, &other.job.case.identify) else {
             return None;
         };
-        let MeasuredNoise::Known(noise) = &measured.noise else { return None };
+        let (MeasuredNoise::Known(of_own), MeasuredNoise::Known(of_other)) = (&own.noise, &measured.noise)
+        else {
+            return None;
+        };
         if own.frequency_hz != measured.frequency_hz {
             return None;
         }
@@ -166,12 +168,10 @@ impl Found {
             let line = &run.found.lines[i];
             let predicted = *line.updated_response.first()?;
             let calibrated = |value: c64| run.measured_by(0, line.frequency_hz, value);
-            let of_noise = calibrated(c64::from(noise[i][0])).norm_sqr();
-            let of_rest = (rest * predicted.norm()).powi(2);
-            let freedom = 2.0 * (impacts as f64 - 1.0) * (1.0 + of_rest / of_noise).powi(2);
-            let end = 0.5 * freedom * (0.05_f64.powf(-2.0 / freedom) - 1.0);
+            let of_noise = calibrated(c64::from(of_own[i][0].hypot(of_other[i][0]))).norm_sqr();
+            let variance = of_noise + (rest * predicted.norm()).powi(2);
             let difference = calibrated(measured.measured[i][0]) - predicted;
-            Some(difference.norm_sqr() <= end * (of_noise + of_rest))
+            Some(difference.norm_sqr() <= -0.05_f64.ln() * variance)
         };
         let covered: Vec<bool> = (0..own.frequency_hz.len()).filter_map(is_covered).collect();
         let share = covered.iter().filter(|&&is| is).count() as f64 / covered.len() as f64;

@@ -108,11 +108,11 @@ fn study(plate: &Plate, starts: u64) -> Result<(), Failure> {
         |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.1} %", 100.0 * share));
     println!(
         "responses of impacts 4 and 5 within 95 % of what 1 to 3 predict: {}",
-        covered(of_first.covers(&of_last, 2))
+        covered(of_first.covers(&of_last))
     );
     println!(
         "responses of impacts 1 to 3 within 95 % of what 4 and 5 predict: {}",
-        covered(of_last.covers(&of_first, 3))
+        covered(of_last.covers(&of_first))
     );
     let predicted = plate.predicted(&of_whole, &whole)?;
     let mut compared: Vec<f64> = predicted
