@@ -1,6 +1,7 @@
 //! Several unknowns at once, against models that are solved directly at known values.
 
 use crate::common;
+use crate::noise::Noise as Draws;
 use crate::tier::{is_long, of_tier};
 
 use common::{bar, c, constant, plate, sandwich, term, two_part_chain};
@@ -36,22 +37,11 @@ fn direct(
     frequency_hz.iter().map(one).collect()
 }
 
-/// Uniform numbers in (0, 1) from a seed (splitmix64).
-fn uniform(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / 9_007_199_254_740_992.0 + 1e-17
-    }
-}
-
 /// Circular noise of this part of each response, and its standard deviation √E|δx|².
 fn noisy(exact: &[Vec<c64>], part: f64, seed: u64) -> (Vec<Vec<c64>>, Vec<Vec<f64>>) {
-    let mut random = uniform(seed);
+    let mut draws = Draws::new(seed);
     let std: Vec<Vec<f64>> = exact.iter().map(|x| x.iter().map(|x| part * x.norm()).collect()).collect();
-    let mut normal = || c64::from_polar((-random().ln()).sqrt(), std::f64::consts::TAU * random());
+    let mut normal = || draws.complex() / 2f64.sqrt();
     let measured =
         exact.iter().zip(&std).map(|(x, s)| x.iter().zip(s).map(|(x, s)| x + s * normal()).collect());
     (measured.collect(), std)

@@ -1,9 +1,10 @@
 //! Hammer tests with known answers: impacts of a half-sine on a structure whose impulse response is known sample by sample.
 
+use crate::noise::Noise as Draws;
 use frfit::c64;
 use frfit::signal::{
     Channel, Estimator, Fault, Measured, Options, Recording, SignalError, Windows, added_loss_factor,
-    estimate_frf,
+    estimate_frf, relative_variance, variances,
 };
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -161,6 +162,60 @@ fn the_variance_is_that_of_either_part() {
     assert!((ratio / lines - 1.0).abs() < 0.08, "{}", ratio / lines);
     // Of as many circular ones, of standard deviation 1 in either part: 0.03.
     assert!((bias / lines).norm() < 0.1, "{}", bias / lines);
+}
+
+/// A response with sharp resonances, and one line with hum: the error of the mean of some averages, that mean, and its coherence.
+fn averaged(
+    averages: usize,
+    [same, proportional]: [f64; 2],
+    lines: usize,
+    seed: u64,
+) -> (Vec<c64>, Vec<c64>, Vec<f64>) {
+    const HUM: usize = 100;
+    let mut draws = Draws::new(seed);
+    let mut normal = || draws.complex() / 2f64.sqrt();
+    let truth = |k: usize| {
+        let f = k as f64 / 80.0;
+        (0..lines / 80)
+            .map(|mode| {
+                let own = 0.5 + mode as f64;
+                1.0 / (own * own * c64::new(1.0, 0.01) - f * f)
+            })
+            .sum::<c64>()
+    };
+    let (mut off, mut response, mut coherence) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..lines {
+        let exact = truth(k);
+        let std = (same + proportional * exact.norm_sqr()).sqrt() * if k == HUM { 20.0 } else { 1.0 };
+        let all: Vec<c64> = (0..averages).map(|_| exact + std * normal()).collect();
+        let mean = all.iter().sum::<c64>() / averages as f64;
+        let square = all.iter().map(|one| one.norm_sqr()).sum::<f64>() / averages as f64;
+        off.push(mean - exact);
+        response.push(mean);
+        coherence.push(mean.norm_sqr() / square);
+    }
+    (off, response, coherence)
+}
+
+/// The square of the true error over the variance has a mean of one, whatever the noise and however few the averages; with the variance of each line by itself it is far larger.
+#[test]
+fn few_averages_have_a_variance_that_is_right_on_average() {
+    let lines = 1600;
+    for noise in [[1e-2, 0.0], [0.0, 1e-4], [1e-3, 1e-5]] {
+        for averages in [2, 3, 5, 10, 40] {
+            let (off, response, coherence) = averaged(averages, noise, lines, 3);
+            let found = variances(&response, &coherence, averages);
+            let ratio = |variances: &[f64]| {
+                let each = off.iter().zip(variances).map(|(off, variance)| off.norm_sqr() / (2.0 * variance));
+                each.sum::<f64>() / lines as f64
+            };
+            // 1600 exponentially distributed numbers: 2.5 %; near resonances noise of n averages takes part in |H|.
+            assert!((ratio(&found) - 1.0).abs() < 0.1, "{noise:?} {averages}: {}", ratio(&found));
+            let own = |(h, c): (&c64, &f64)| relative_variance(*h, *c) / (averages as f64 - 1.0);
+            let own: Vec<f64> = response.iter().zip(&coherence).map(own).collect();
+            assert!(averages > 3 || ratio(&own) > 1.5, "{noise:?} {averages}: {}", ratio(&own));
+        }
+    }
 }
 
 #[test]

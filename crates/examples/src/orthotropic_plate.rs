@@ -11,7 +11,7 @@ use frfit::model::{DynamicStiffness, Experiment, Role};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
 use frfit::subspace::{Point, Subspace, TrainOptions};
-use frfit_fem::{Direction, OrthotropicPlate};
+use frfit_fem::{Direction, OrthotropicPlate, inset_lines};
 use std::ops::Range;
 
 /// Length along the grain, width across it, in m, and thickness in m.
@@ -109,8 +109,7 @@ fn lines(side: f64, elements: usize) -> Vec<f64> {
     let Some(inner) = elements.checked_sub(2).filter(|inner| COUNTS.contains(inner)) else {
         return Vec::new();
     };
-    let inner_line = |k: usize| INSET + (side - 2.0 * INSET) * k as f64 / inner as f64;
-    std::iter::once(0.0).chain((0..=inner).map(inner_line)).chain([side]).collect()
+    inset_lines(side, INSET, inner)
 }
 
 /// Records of force (N) and acceleration (g) of some impacts, one a segment, computed on a finer mesh than that of the model.

@@ -49,6 +49,6 @@ pub use brick::Brick;
 pub use dof::{Direction, Dof};
 pub use element::{Element, Mass};
 pub use error::Error;
-pub use orthotropic_plate::OrthotropicPlate;
+pub use orthotropic_plate::{OrthotropicPlate, inset_lines};
 pub use plate::Plate;
 pub use support::Support;

@@ -80,6 +80,12 @@ impl OrthotropicPlate {
     }
 }
 
+/// Grid lines of a side (m): 0, the inset, so many equal steps, the inset before the end, the end; where a plate is struck and measured near its corners there is a node.
+pub fn inset_lines(side: f64, inset: f64, inner: usize) -> Vec<f64> {
+    let inner_line = |k: usize| inset + (side - 2.0 * inset) * k as f64 / inner as f64;
+    std::iter::once(0.0).chain((0..=inner).map(inner_line)).chain([side]).collect()
+}
+
 /// A simply supported edge holds the deflection and with it the slope along the edge. The slope across it is free, and so is its
 /// change along the edge, the twist.
 fn holds(support: Support, edge: usize, direction: Direction) -> bool {

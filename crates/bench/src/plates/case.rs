@@ -8,7 +8,7 @@ use frfit::c64;
 use frfit::material::Law;
 use frfit::model::{Role, Term};
 use frfit::signal::Options;
-use frfit_fem::{Direction, OrthotropicPlate};
+use frfit_fem::{Direction, OrthotropicPlate, inset_lines};
 use frfit_workflow::job::frf_of_records;
 use frfit_workflow::records::ChannelOptions;
 use std::fmt::Write;
@@ -79,7 +79,7 @@ impl Plate {
     pub fn case(&self, setting: &Setting, folder: &Path) -> Result<PathBuf, Failure> {
         let path = |name: &str| folder.join(name);
         let [length, width, thickness] = self.size;
-        let lines = [lines(length, setting.elements[0]), lines(width, setting.elements[1])];
+        let lines = [0, 1].map(|axis| inset_lines(self.size[axis], INSET, setting.elements[axis]));
         let assembled = OrthotropicPlate { lines, thickness, ..OrthotropicPlate::default() }.assemble()?;
         let mut case = String::from("title = \"Spruce\"\n");
         let density = self.mass / (length * width * thickness);
@@ -91,10 +91,9 @@ impl Plate {
             let factor = Law::Constant(c64::new(1.0, 0.0));
             let term = Term { name: name.to_owned(), role, matrix: matrix.clone(), factor };
             fs::write(path(name), frfit_examples::matrix(&term, name)?)?;
-            let role = if role == Role::Mass { "mass" } else { "stiffness" };
-            let factor = match role {
-                "mass" => format!("{storage:e}"),
-                _ => format!("{{ storage = {storage:e}, loss_factor = {loss_factor:e} }}"),
+            let (role, factor) = match role {
+                Role::Mass => ("mass", format!("{storage:e}")),
+                _ => ("stiffness", format!("{{ storage = {storage:e}, loss_factor = {loss_factor:e} }}")),
             };
             write!(
                 case,
@@ -147,10 +146,4 @@ impl Plate {
         fs::write(&file, table)?;
         Ok(file)
     }
-}
-
-/// 0, the inset, equal steps, the inset before the end, the end.
-fn lines(length: f64, elements: usize) -> Vec<f64> {
-    let inner = |k: usize| INSET + (length - 2.0 * INSET) * k as f64 / elements as f64;
-    std::iter::once(0.0).chain((0..=elements).map(inner)).chain([length]).collect()
 }

@@ -14,7 +14,7 @@ use std::time::Instant;
 /// The four constants of a plate, as identified.
 #[derive(Debug)]
 pub struct Found {
-    /// Storage in Pa with its standard deviation, and loss factor, in the order of [`NAMES`].
+    /// Storage in Pa with its standard deviation, in the order of [`NAMES`].
     pub constants: [(f64, f64); 4],
     /// Their loss factors.
     pub loss_factors: [f64; 4],

@@ -14,6 +14,7 @@ use frfit::frequency::omega_rad_s;
 use frfit::material::Law;
 use frfit::modal::{PairedShape, paired};
 use frfit::model::Role;
+use frfit_linalg::sparse::Part;
 
 /// Elements along x of a coarse mesh.
 const COARSE: [usize; 2] = [6, 14];
@@ -43,7 +44,7 @@ struct Counts {
     wrong: usize,
     /// Pairs of modes that have changed places.
     crossings: usize,
-    /// Crossings that are not named, and pairs that are named crossings and are none.
+    /// Crossings that are missed, and other pairs that are called crossings.
     wrong_crossings: usize,
 }
 
@@ -66,11 +67,10 @@ fn seen(
     let energy = |shape: &[f64], wants: &dyn Fn(&str) -> bool| -> Result<f64, Failure> {
         let of = terms.iter().filter(|term| term.role == Role::Stiffness && wants(&term.name));
         let mut all = 0.0;
-        let complex: Vec<c64> = shape.iter().map(|&value| c64::from(value)).collect();
         for term in of {
-            let mut force = vec![c64::default(); shape.len()];
-            term.matrix.multiply_add(c64::from(term.factor.at(1.0)?.re), &complex, &mut force);
-            all += force.iter().zip(shape).map(|(f, x)| f.re * x).sum::<f64>();
+            let mut force = vec![0.0; shape.len()];
+            term.matrix.multiply_add_real(Part::Re, shape, &mut force);
+            all += term.factor.at(1.0)?.re * force.iter().zip(shape).map(|(f, x)| f * x).sum::<f64>();
         }
         Ok(all)
     };
@@ -142,8 +142,8 @@ fn counted(seed: u64, index: u64) -> Result<Option<Counts>, Failure> {
         }
         counts.right += 1;
         // Among the pairs that are there.
-        let there = pairing.pairs.iter().map(|pair| (pair.model, pair.measured));
-        let is_crossing = there.clone().any(|(a, b)| (a < i) != (b < j) && a != i);
+        let is_crossing =
+            pairing.pairs.iter().any(|one| one.model != i && (one.model < i) != (one.measured < j));
         counts.crossings += usize::from(is_crossing);
         counts.wrong_crossings += usize::from(is_crossing != pair.is_crossing);
     }

@@ -146,7 +146,8 @@ pub(super) fn band(
             each.map(|(&h, &gamma)| std_of(relative_variance(h, within(gamma)))).collect::<Vec<f64>>()
         };
         relative.push(frf.coherence.as_ref().map(relative_std).as_ref().map(receptance_std));
-        known.push(frf.std.clone().or_else(|| by_averages(curve)).as_ref().map(receptance_std));
+        let given = frf.std.as_ref().map(receptance_std);
+        known.push(given.or_else(|| by_averages(curve).as_ref().map(receptance_std)));
     }
     let by_frequency = |columns: Vec<Option<Vec<f64>>>| -> Option<Vec<Vec<f64>>> {
         let columns: Vec<Vec<f64>> = columns.into_iter().collect::<Option<_>>()?;

@@ -16,6 +16,7 @@ use frfit_bench::plates::case::{BOUNDS, NOMINAL, Setting};
 use frfit_bench::plates::found::{Found, PredictedMode};
 use frfit_bench::wrong_models::Failure;
 use frfit_bench::wrong_models::dice::Dice;
+use frfit_bench::wrong_models::natural::median;
 use frfit_bench::{Table, machine};
 use std::path::Path;
 
@@ -115,17 +116,15 @@ fn study(plate: &Plate, starts: u64) -> Result<(), Failure> {
         covered(of_last.covers(&of_first))
     );
     let predicted = plate.predicted(&of_whole, &whole)?;
-    let mut compared: Vec<f64> = predicted
-        .iter()
-        .filter(|mode| mode.measured_hz < COMPARED_HZ)
-        .map(|mode| mode.difference().abs())
-        .collect();
-    compared.sort_by(f64::total_cmp);
-    let median = compared.get(compared.len() / 2).copied().unwrap_or(f64::NAN);
+    let is_compared = |mode: &&PredictedMode| mode.measured_hz < COMPARED_HZ;
+    let compared: Vec<f64> =
+        predicted.iter().filter(is_compared).map(|mode| mode.difference().abs()).collect();
+    let count = compared.len();
+    let middle = median(compared).unwrap_or(f64::NAN);
     println!(
         "{} natural frequencies below {COMPARED_HZ} Hz, median difference {:.2} %",
-        compared.len(),
-        100.0 * median
+        count,
+        100.0 * middle
     );
     println!("{}", modes(&predicted));
     let is_above = |mode: &PredictedMode| mode.measured_hz > middle_hz;
