@@ -99,6 +99,6 @@ fn axis(direction: Direction) -> Option<Axis> {
         Direction::RX => Some(Axis::Rx),
         Direction::RY => Some(Axis::Ry),
         Direction::RZ => Some(Axis::Rz),
-        Direction::Twist => None,
+        Direction::Twist | Direction::ShearX | Direction::ShearY => None,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What moves at a node: a translation along an axis, a right-handed rotation about it, or the twist of a plate.
+/// What moves at a node: a translation along an axis, a right-handed rotation about it, the twist of a plate, or its transverse shear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// Translation along x, in m.
@@ -19,6 +19,10 @@ pub enum Direction {
     RZ,
     /// ∂²w/∂x∂y of a plate's deflection w, in 1/m: neither a displacement nor a rotation, and without a name in a table of dofs.
     Twist,
+    /// Transverse shear strain γ_xz = ∂w/∂x + RY of a thick plate: without a name in a table of dofs, as the twist.
+    ShearX,
+    /// Transverse shear strain γ_yz = ∂w/∂y − RX of a thick plate.
+    ShearY,
 }
 
 impl Direction {
@@ -32,6 +36,8 @@ impl Direction {
             Self::RY => "RY",
             Self::RZ => "RZ",
             Self::Twist => "TWIST",
+            Self::ShearX => "SHEARX",
+            Self::ShearY => "SHEARY",
         }
     }
 }
