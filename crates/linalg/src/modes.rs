@@ -29,6 +29,16 @@ impl Modes {
     pub fn frequencies_hz(&self) -> Vec<f64> {
         self.omega_squared.iter().map(|w2| w2.max(0.0).sqrt() / std::f64::consts::TAU).collect()
     }
+
+    /// How many have residuals of [`CONVERGED_RESIDUAL`], or of roundoff.
+    fn converged(&self, sigma: f64) -> usize {
+        let lowest = self.omega_squared.first().map_or(0.0, |w2| w2 - sigma);
+        let is_converged = |(&w2, &residual): (&f64, &f64)| {
+            let roundoff = ROUNDOFF * f64::EPSILON * (w2 - sigma) / lowest;
+            residual < roundoff.clamp(CONVERGED_RESIDUAL, LARGEST_RESIDUAL)
+        };
+        self.omega_squared.iter().zip(&self.residuals).filter(|&one| is_converged(one)).count()
+    }
 }
 
 /// Why there are no modes.
@@ -73,6 +83,12 @@ impl From<Breakdown> for ModesError {
 
 /// Largest residual that counts as converged: eigenvalue errors are its square.
 const CONVERGED_RESIDUAL: f64 = 1e-8;
+
+/// What roundoff leaves of a residual, over ε ν_max/ν: the solution of a mode has ε of the largest of the others, which is that of a rigid-body mode. Measured are 5 to 20.
+const ROUNDOFF: f64 = 100.0;
+
+/// Residual up to which roundoff is accepted: of ω² − σ it is 1e-8.
+const LARGEST_RESIDUAL: f64 = 1e-4;
 
 /// The `count` modes of lowest |ω²|, fewer where M has a smaller rank.
 ///
@@ -132,11 +148,11 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
             space.images.push(image.clone());
         }
         modes = space.rayleigh_ritz(count, sigma, |x| times(m, x));
-        if modes.residuals.len() == count && modes.residuals.iter().all(|&r| r < CONVERGED_RESIDUAL) {
+        if modes.residuals.len() == count && modes.converged(sigma) == count {
             return Ok(modes);
         }
     }
-    let converged = modes.residuals.iter().filter(|&&r| r < CONVERGED_RESIDUAL).count();
+    let converged = modes.converged(sigma);
     // A mass matrix of small rank has fewer modes than were asked for: those there are, are all.
     if converged > 0 && converged == modes.residuals.len() && space.basis.len() < limit {
         return Ok(modes);
