@@ -244,7 +244,7 @@ fn two_rows_at_once_are_found_at_a_cost_that_does_not_grow_with_the_rows() {
             assert!(diagnosis.findings.len() == 2 && second && named(&[0], were[0]), "{what}");
             // Trained are: the box, one for single rows of each of two readings, two for pairs, and the other axes.
             let frfit::response::Work { factorisations, solves } = diagnosis.work;
-            assert!(factorisations <= 8 && solves <= 600, "{what}");
+            assert!(factorisations <= 10 && solves <= 600, "{what}");
         }
     }
 }
@@ -410,6 +410,23 @@ fn a_nominal_value_that_is_powers_of_ten_off_is_named() {
             !findings.iter().any(|one| matches!(one.fault, Fault::Nominal { .. })),
             "{name}: {findings:?}"
         );
+    }
+}
+
+/// Of one sensor a delay or an axis in rad/s may explain what a nominal just beyond the box does: it is asked before anything is accused.
+#[test]
+fn a_nominal_value_some_times_off_is_not_taken_for_another_fault() {
+    for (k, (name, make)) in structures().into_iter().take(2).enumerate() {
+        for nominal in [1.0 / 12.0, 5.0].into_iter().take(of_tier(2 - k, 2)) {
+            let mut test = Test::new(make(), 80, 0.02, 0, nominal);
+            test.bounds = Bounds::default();
+            test.case.experiment.sensors.truncate(1);
+            test.written.iter_mut().for_each(|values| values.truncate(1));
+            test.quantities.truncate(1);
+            let findings = test.diagnose().findings;
+            let is_nominal = |one: &Finding| matches!(one.fault, Fault::Nominal { ratio } if (ratio * nominal - 1.0).abs() < 0.1);
+            assert!(findings.iter().all(is_nominal), "{name}, {nominal}: {findings:?}");
+        }
     }
 }
 

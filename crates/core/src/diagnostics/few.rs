@@ -206,12 +206,14 @@ pub(super) fn look<T>(
         look.say(&search, choice, &as_given, &tried, &mut diagnosis);
     }
     diagnosis.misfit = Some(left.fitted.misfit.sigma);
-    let axis = left.elsewhere.iter().find_map(|elsewhere| match elsewhere.fault {
+    // A mesh is judged at the likeliest values, also where others are nearly as likely.
+    let likeliest = choice.as_ref().map_or(&as_given, |choice| choice.best);
+    let axis = likeliest.elsewhere.iter().find_map(|elsewhere| match elsewhere.fault {
         Fault::Axis { factor } => Some(factor),
         _ => None,
     });
     let top = frequency_hz.len() - 1;
-    let values = parametrization.values(&left.fitted.moduli, top);
+    let values = parametrization.values(&likeliest.fitted.moduli, top);
     if let Ok(top) = problem.at(frequency_hz[top] / axis.unwrap_or(1.0), &values)
         && let Some(fault) = mesh::beyond_mesh(&top)
     {
@@ -281,16 +283,24 @@ impl Look<'_> {
                 tried.extend(self.row_pairs(&search, &as_given, &swept)?);
             }
         }
-        if self.depth == Depth::Quick {
+        let is_accused = choose(&as_given, &tried).is_some();
+        if self.depth == Depth::Quick && !is_accused {
             return Ok((as_given, tried));
         }
-        if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+        if self.depth == Depth::Full && left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
             tried.extend(self.axis(responses, &as_given, TAU, true).unwrap_or_default());
         }
-        if as_given.fitted.misfit.sigma > FAR_MISFIT
-            && left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT
-        {
-            tried.extend(self.far_nominals(responses, &as_given));
+        let is_far = as_given.fitted.misfit.sigma > FAR_MISFIT
+            && left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT;
+        let powers = match self.depth {
+            Depth::Full if is_far => MAX_POWER_OF_TEN,
+            // What is accused may be a nominal value just beyond the box.
+            Depth::Quick | Depth::Full if is_accused => 1,
+            Depth::Quick | Depth::Full => 0,
+        };
+        tried.extend(self.far_nominals(responses, &as_given, powers));
+        if self.depth == Depth::Quick {
+            return Ok((as_given, tried));
         }
         // Higher frequencies have more modes, and cost most.
         if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
@@ -385,10 +395,15 @@ impl Look<'_> {
         })
     }
 
-    /// The same data with all nominal values some powers of ten off: another unit, or a zero too many.
-    fn far_nominals(&self, responses: &Responses<'_>, as_given: &Explanation) -> Vec<Explanation> {
+    /// The same data with all nominal values up to so many powers of ten off: another unit, or a zero too many.
+    fn far_nominals(
+        &self,
+        responses: &Responses<'_>,
+        as_given: &Explanation,
+        powers: i32,
+    ) -> Vec<Explanation> {
         let mut tried = Vec::new();
-        for power in (1..=MAX_POWER_OF_TEN).flat_map(|power| [power, -power]) {
+        for power in (1..=powers).flat_map(|power| [power, -power]) {
             let centre = f64::from(power) * std::f64::consts::LN_10;
             let Some(parametrization) = responses.parametrization.about(centre) else { continue };
             let one = self.with_other_responses(&responses.frequency_hz, parametrization, &mut |search| {
