@@ -549,12 +549,16 @@ impl Modes {
         self.energy_shares[self.of_error[error]][self.group[error]]
     }
 
-    /// What of the strain energy is in the stiffness of unknowns: a root mean square over the elastic modes up to some frequency; 1 where no other stiffness is known.
+    /// What of the strain energy of a mode is in the stiffness of unknowns; 1 where no other stiffness is known.
+    pub(crate) fn share_of_unknown(&self, mode: usize) -> f64 {
+        self.energy_shares[mode].get(1).copied().unwrap_or(1.0)
+    }
+
+    /// The same as a root mean square over the elastic modes up to some frequency.
     pub(crate) fn share_of_unknowns(&self, highest_rad_s: f64) -> f64 {
-        let is_in_band = |omega: &f64| *omega > 0.0 && *omega <= highest_rad_s;
-        let each = self.omega_rad_s.iter().zip(&self.energy_shares).filter(|(omega, _)| is_in_band(omega));
-        let squares: Vec<f64> =
-            each.filter_map(|(_, shares)| shares.get(1)).map(|share| share * share).collect();
+        let is_in_band = |&i: &usize| self.omega_rad_s[i] > 0.0 && self.omega_rad_s[i] <= highest_rad_s;
+        let in_band = (0..self.omega_rad_s.len()).filter(is_in_band);
+        let squares: Vec<f64> = in_band.map(|i| self.share_of_unknown(i).powi(2)).collect();
         if squares.is_empty() { 1.0 } else { (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() }
     }
 

@@ -165,6 +165,9 @@ const MAX_THETA_STEP: f64 = 0.5;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
 const MAX_FREQUENCY_ERROR: f64 = 0.04;
+
+/// What of them another size of the unknown stiffness may take, which is in its error bar: a fifth of that stiffness.
+const MAX_COMMON_ERROR: f64 = 0.1;
 const MAX_SHAPE_ERROR: f64 = 0.3;
 
 /// The same over the sizes that were given.
@@ -423,7 +426,8 @@ impl Fitting<'_, '_> {
         })
     }
 
-    /// Whether the errors in the band are small ones of this model, or not much larger than was given, and it is no other.
+    /// Whether the errors in the band are small ones of this model, or not much larger than was given, and it is no other. What another size of all unknown
+    /// stiffness would do is no error of modes.
     pub(super) fn are_small(&self, place: &[f64], given: ErrorSizes) -> bool {
         let errors = self.errors(place);
         let is_in_band = |&i: &usize| {
@@ -437,6 +441,12 @@ impl Fitting<'_, '_> {
         let frequency = |i: usize| -> f64 {
             errors.scale + self.modes.frequency_errors(i).map(|error| errors.stiffness[error]).sum::<f64>()
         };
+        let share = |i: usize| self.modes.share_of_unknown(i);
+        let sum = |of: &dyn Fn(usize) -> f64| in_band.iter().map(|&i| of(i)).sum::<f64>();
+        let squares = sum(&|i| share(i) * share(i));
+        let size = if squares > 0.0 { sum(&|i| share(i) * frequency(i)) / squares } else { 0.0 };
+        let size = size.clamp(-MAX_COMMON_ERROR, MAX_COMMON_ERROR);
+        let of_mode = |i: usize| frequency(i) - size * share(i);
         let largest = |usual: f64, given: Option<f64>| {
             usual.max(MAX_ERROR_OVER_GIVEN_SIZE * given.unwrap_or(0.0)).powi(2)
         };
@@ -444,7 +454,7 @@ impl Fitting<'_, '_> {
             let error = |i: usize| shape[i] / self.modes.usual_over_own(place, i);
             square(&error) <= largest(MAX_SHAPE_ERROR, given.shape)
         };
-        square(&frequency) <= largest(MAX_FREQUENCY_ERROR, given.frequency)
+        square(&of_mode) <= largest(MAX_FREQUENCY_ERROR, given.frequency)
             && std::iter::once(&errors.load).chain(&errors.shape).enumerate().all(of_shapes)
     }
 
