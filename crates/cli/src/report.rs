@@ -257,6 +257,9 @@ fn contradictions(text: &mut Text, job: &IdentifyJob) {
     }
 }
 
+/// Measured natural frequencies without a partner that are named.
+const MAX_ALONE: usize = 5;
+
 /// Natural frequencies of model and measurement side by side, where nothing is explained.
 fn modes(text: &mut Text, modes: &Value) {
     let Some(measured) = modes["measured"]["modes"].as_array() else { return };
@@ -275,10 +278,23 @@ fn modes(text: &mut Text, modes: &Value) {
             )
         }
     };
+    let is_paired = |mode: &&Value| pairs.iter().any(|pair| pair["measured"] == mode["mode"]);
+    let alone =
+        measured.iter().filter(|mode| !is_paired(mode)).filter_map(|mode| mode["frequency_hz"].as_f64());
+    let alone: Vec<String> = alone.map(|hz| format!("{hz:.1}")).collect();
+    let without = match alone.len() {
+        0 => String::new(),
+        count => {
+            let more = count.saturating_sub(MAX_ALONE);
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let shown = alone[..count.min(MAX_ALONE)].join(", ");
+            format!("; {shown}{more} Hz have none, and exclude_hz leaves such resonances out")
+        }
+    };
     text.say(
         "modes",
         &format!(
-            "{} of {} measured natural frequencies have a partner in the model{by}: see report.html, or frfit modes",
+            "{} of {} measured natural frequencies have a partner in the model{by}{without}: see report.html, or frfit modes",
             pairs.len(),
             measured.len()
         ),

@@ -354,6 +354,7 @@ fn a_sensor_that_contradicts_the_others_is_named_and_left_out() {
     let [all, pairs] = ["modes", "pairs"].map(|key| modes[key].as_array().unwrap().len());
     assert!(all == 5 && pairs >= 4, "{modes}");
     assert!(modes["comac"]["220+Z"].as_f64() < Some(0.8) && modes["comac"]["202+Z"].as_f64() > Some(0.95));
+    assert_eq!(said.contains("Hz have none"), pairs < all, "{said}");
     let pairs = format!("{pairs} of {all} measured natural frequencies have a partner in the model");
     assert!(said.contains(&pairs), "{said}");
     assert!(std::fs::read_to_string(at.join("kept/report.html")).unwrap().contains("<section id=\"modes\""));
