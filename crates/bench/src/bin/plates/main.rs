@@ -1,6 +1,6 @@
 //! Five measured plates of spruce: their four constants beside the published moduli, and what the constants predict.
 //!
-//! `plates [NAME ...] [--starts N]`: all plates, or some. `plates NAME --write FOLDER`: the case of a plate, for the command line.
+//! `plates [NAME ...] [--thick] [--starts N]`: all plates, or some; with transverse shear, or without. `plates NAME --write FOLDER`: the case of a plate, for the command line.
 //!
 //!  For each: the three moduli from all impacts and frequencies, from nominal values of its own for each of N starts
 //! (default 0), from impacts 1 to 3 and from 4 and 5, from the lower and from the upper part of the band; natural frequencies beside the measured ones, also those of
@@ -27,11 +27,12 @@ const START_WITHIN: f64 = 2.0;
 const COMPARED_HZ: f64 = 600.0;
 
 fn main() -> Result<(), Failure> {
-    let (mut names, mut starts, mut folder) = (Vec::new(), 0, None);
+    let (mut names, mut starts, mut folder, mut whole) = (Vec::new(), 0, None, Setting::default());
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match word.as_str() {
             "--starts" => starts = number(&words.next().ok_or("--starts: expected a number")?)?,
+            "--thick" => whole.thick = true,
             "--write" => folder = Some(words.next().ok_or("--write: expected a folder")?),
             _ => names.push(word),
         }
@@ -49,18 +50,17 @@ fn main() -> Result<(), Failure> {
     }
     let is_asked = |plate: &&Plate| names.is_empty() || names.contains(&plate.name);
     let mut asked = all.iter().filter(is_asked);
-    let Some(folder) = folder else { return asked.try_for_each(|plate| study(plate, starts)) };
+    let Some(folder) = folder else { return asked.try_for_each(|plate| study(plate, &whole, starts)) };
     asked.try_for_each(|plate| {
         let folder = Path::new(&folder).join(&plate.name);
         std::fs::create_dir_all(&folder)?;
-        println!("{}", plate.case(&Setting::default(), &folder)?.display());
+        println!("{}", plate.case(&whole, &folder)?.display());
         Ok(())
     })
 }
 
 /// All about a plate.
-fn study(plate: &Plate, starts: u64) -> Result<(), Failure> {
-    let whole = Setting::default();
+fn study(plate: &Plate, whole: &Setting, starts: u64) -> Result<(), Failure> {
     let [low_hz, high_hz] = whole.band_hz;
     let middle_hz = 0.5 * (low_hz + high_hz);
     let [lower, upper] = [[low_hz, middle_hz], [middle_hz, high_hz]].map(|band_hz| Setting {
@@ -93,7 +93,7 @@ fn study(plate: &Plate, starts: u64) -> Result<(), Failure> {
         cells.push(format!("{:.0}", found.seconds));
         cells
     };
-    let of_whole = plate.identify(&whole)?;
+    let of_whole = plate.identify(whole)?;
     table.push(row("all, beside published", &of_whole, &plate.published));
     let whole_moduli = of_whole.moduli();
     let of_first = plate.identify(&first)?;
@@ -115,7 +115,7 @@ fn study(plate: &Plate, starts: u64) -> Result<(), Failure> {
         "responses of impacts 1 to 3 within 95 % of what 4 and 5 predict: {}",
         covered(of_last.covers(&of_first))
     );
-    let predicted = plate.predicted(&of_whole, &whole)?;
+    let predicted = plate.predicted(&of_whole, whole)?;
     let is_compared = |mode: &&PredictedMode| mode.measured_hz < COMPARED_HZ;
     let compared: Vec<f64> =
         predicted.iter().filter(is_compared).map(|mode| mode.difference().abs()).collect();
@@ -129,7 +129,7 @@ fn study(plate: &Plate, starts: u64) -> Result<(), Failure> {
     println!("{}", modes(&predicted));
     let is_above = |mode: &PredictedMode| mode.measured_hz > middle_hz;
     for (name, found, wants_above) in [("lower", &of_lower, true), ("upper", &of_upper, false)] {
-        let mut left_out = plate.predicted(found, &whole)?;
+        let mut left_out = plate.predicted(found, whole)?;
         left_out.retain(|mode| is_above(mode) == wants_above);
         let within = left_out.iter().filter(|mode| mode.difference().abs() <= 2.0 * mode.std).count();
         println!(
