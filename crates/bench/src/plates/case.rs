@@ -29,7 +29,7 @@ pub const LOSS_FACTOR: f64 = 0.015;
 pub const BOUNDS: [[f64; 2]; 4] = [[4e9, 2.5e10], [3e8, 3e9], [3e7, 1.5e9], [2e8, 2e9]];
 
 /// Moduli of transverse shear in Pa, along and across the grain, of a thick plate: those of spruce in a handbook, of which the second is that of rolling shear. They are taken for known to
-/// [`SHEAR_STD`].
+/// a quarter.
 ///
 /// # Source
 /// F. H. Neuhaus, Holz als Roh- und Werkstoff 52 (1994) 41–46: 0.74 and 0.042 GPa at a moisture of 12 %.

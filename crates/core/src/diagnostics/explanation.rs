@@ -71,6 +71,12 @@ pub(super) struct Explanation {
 }
 
 impl Explanation {
+    /// Whether nothing but the sense of values, or that of their phase, is wrong.
+    pub(super) fn is_of_sense(&self) -> bool {
+        let is_sense = |edit: &Edit| matches!(edit.change, Change::Reversed | Change::Conjugated);
+        self.elsewhere.is_empty() && self.edits.iter().all(is_sense)
+    }
+
     /// Data as they are.
     pub(super) fn as_given(data_hypothesis: DataHypothesis, fitted: Fitted) -> Self {
         Self { edits: Vec::new(), elsewhere: Vec::new(), data_hypothesis, nats: fitted.nats, fitted }

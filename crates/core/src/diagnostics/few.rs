@@ -283,7 +283,10 @@ impl Look<'_> {
                 tried.extend(self.row_pairs(&search, &as_given, &swept)?);
             }
         }
-        let is_accused = choose(&as_given, &tried).is_some();
+        // No stiffness turns a response round.
+        let is_stiffness_like =
+            |one: &Explanation| !one.is_of_sense() || one.fitted.misfit.sigma > UNEXPLAINED_MISFIT;
+        let is_accused = choose(&as_given, &tried).is_some_and(|choice| is_stiffness_like(choice.best));
         if self.depth == Depth::Quick && !is_accused {
             return Ok((as_given, tried));
         }

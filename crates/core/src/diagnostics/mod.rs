@@ -47,7 +47,7 @@ pub enum Depth {
     /// At everything.
     Full,
     /// Before an identification, which says itself whether it explains the data: at other rows and axes only where much is left (a misfit of 0.3) or
-    /// something else would be accused, and not at nominal values that are powers of ten off.
+    /// something else would be accused, and at nominal values that are ten times off only where something is accused that stiffness could do.
     Quick,
 }
 
@@ -55,7 +55,7 @@ pub enum Depth {
 ///
 /// Where the band is identified too, [`diagnose_on`] shares its reduced model.
 ///
-/// Costs one real factorisation and some dozens of solves; two more for each of three searches for another row, and for each other axis.
+/// Costs one real factorisation and some dozens of solves; two more for each of three searches for another row, for each other axis, and for nominal values ten times off to either side.
 /// Of more than twenty sensors that many are looked at
 /// together, all others are compared with the moduli that they have, and those that differ most are looked at one by one: the cost beyond that of
 /// twenty sensors is one product with the basis at each frequency, and one residual a sensor and frequency.
