@@ -9,7 +9,7 @@ use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::load::IdentifyCase;
 use frfit_workflow::output::{Words, contradicted, laws_text, not_identifiable};
-use frfit_workflow::terminal::short;
+use frfit_workflow::terminal::{listed, short};
 use serde_json::Value;
 use std::path::Path;
 
@@ -282,13 +282,11 @@ fn modes(text: &mut Text, modes: &Value) {
     let alone =
         measured.iter().filter(|mode| !is_paired(mode)).filter_map(|mode| mode["frequency_hz"].as_f64());
     let alone: Vec<String> = alone.map(|hz| format!("{hz:.1}")).collect();
-    let without = match alone.len() {
-        0 => String::new(),
-        count => {
-            let more = count.saturating_sub(MAX_ALONE);
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-            let shown = alone[..count.min(MAX_ALONE)].join(", ");
-            format!("; {shown}{more} Hz have none, and exclude_hz leaves such resonances out")
+    let without = match alone.is_empty() {
+        true => String::new(),
+        false => {
+            let named = listed(&alone, MAX_ALONE);
+            format!("; {named} Hz have none, and exclude_hz leaves such resonances out")
         }
     };
     text.say(

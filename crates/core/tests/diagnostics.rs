@@ -242,7 +242,7 @@ fn two_rows_at_once_are_found_at_a_cost_that_does_not_grow_with_the_rows() {
                 Elsewhere::BothSensors => named(&[1], were[1]),
             };
             assert!(diagnosis.findings.len() == 2 && second && named(&[0], were[0]), "{what}");
-            // Trained are: the box, one for single rows of each of two readings, two for pairs, and the other axes.
+            // Trained are: the box, one for single rows of each of two readings, two for pairs, the other axes, and nominal values ten times off to either side.
             let frfit::response::Work { factorisations, solves } = diagnosis.work;
             assert!(factorisations <= 10 && solves <= 600, "{what}");
         }

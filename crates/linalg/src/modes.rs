@@ -148,7 +148,7 @@ pub fn lowest(k: &SymmetricMatrix, m: &SymmetricMatrix, count: usize) -> Result<
             space.images.push(image.clone());
         }
         modes = space.rayleigh_ritz(count, sigma, |x| times(m, x));
-        if modes.residuals.len() == count && modes.converged(sigma) == count {
+        if modes.converged(sigma) == count {
             return Ok(modes);
         }
     }

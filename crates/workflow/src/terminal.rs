@@ -28,6 +28,15 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// Names in a sentence: the first `most`, and how many more there are.
+pub fn listed(names: &[String], most: usize) -> String {
+    let shown = names[..names.len().min(most)].join(", ");
+    match names.len().saturating_sub(most) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
 fn escaped(text: &str, which: impl Fn(char) -> bool, code: impl Fn(char) -> String) -> Cow<'_, str> {
     let is_escaped = |c: char| c.is_control() && which(c);
     if !text.contains(is_escaped) {
@@ -54,6 +63,13 @@ mod tests {
         let shown = printable_json(&format!("{json:#}\n")).into_owned();
         assert!(!shown.replace('\n', "").contains(char::is_control), "{shown}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).unwrap(), json);
+    }
+
+    #[test]
+    fn a_list_ends_with_how_many_more_there_are() {
+        let names = ["a", "b", "c"].map(String::from);
+        assert_eq!([0, 1, 3].map(|count| listed(&names[..count], 2)), ["", "a", "a, b and 1 more"]);
+        assert_eq!(listed(&names, 3), "a, b, c");
     }
 
     #[test]

@@ -287,26 +287,18 @@ impl Look<'_> {
         let is_stiffness_like =
             |one: &Explanation| !one.is_of_sense() || one.fitted.misfit.sigma > UNEXPLAINED_MISFIT;
         let is_accused = choose(&as_given, &tried).is_some_and(|choice| is_stiffness_like(choice.best));
-        if self.depth == Depth::Quick && !is_accused {
-            return Ok((as_given, tried));
-        }
-        if self.depth == Depth::Full && left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+        let is_full = self.depth == Depth::Full;
+        if is_full && left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
             tried.extend(self.axis(responses, &as_given, TAU, true).unwrap_or_default());
         }
-        let is_far = as_given.fitted.misfit.sigma > FAR_MISFIT
+        let is_far = is_full
+            && as_given.fitted.misfit.sigma > FAR_MISFIT
             && left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT;
-        let powers = match self.depth {
-            Depth::Full if is_far => MAX_POWER_OF_TEN,
-            // What is accused may be a nominal value just beyond the box.
-            Depth::Quick | Depth::Full if is_accused => 1,
-            Depth::Quick | Depth::Full => 0,
-        };
+        // What is accused may be a nominal value just beyond the box.
+        let powers = if is_far { MAX_POWER_OF_TEN } else { i32::from(is_accused) };
         tried.extend(self.far_nominals(responses, &as_given, powers));
-        if self.depth == Depth::Quick {
-            return Ok((as_given, tried));
-        }
         // Higher frequencies have more modes, and cost most.
-        if left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+        if is_full && left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
             tried.extend(self.axis(responses, &as_given, 1.0 / TAU, false).unwrap_or_default());
         }
         Ok((as_given, tried))

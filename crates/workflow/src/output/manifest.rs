@@ -4,6 +4,7 @@ use super::files::File;
 use crate::error::{InputError, Place};
 use crate::load::load_bytes;
 use crate::reads::Reads;
+use crate::terminal::listed;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -80,15 +81,10 @@ pub(crate) fn read_result(
     if missing.is_empty() && other.is_empty() {
         return Ok(files);
     }
-    let listed = |names: &[String]| {
-        let more = names.len().saturating_sub(NAMED);
-        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        format!("{}{more}", names[..names.len().min(NAMED)].join(", "))
-    };
     let found: Vec<String> = [("missing", &missing), ("changed, or of another run", &other)]
         .into_iter()
         .filter(|(_, names)| !names.is_empty())
-        .map(|(what, names)| format!("{what}: {}", listed(names)))
+        .map(|(what, names)| format!("{what}: {}", listed(names, NAMED)))
         .collect();
     let expected = format!(
         "the files of one run of frfit {result}, as {} lists them (run it again)",

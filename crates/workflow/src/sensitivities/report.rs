@@ -4,7 +4,7 @@ use super::words::{bar, inseparable as in_words};
 use super::{NextSensor, NoiseFrom, Place, SensitivityRun};
 use crate::load::Case;
 use crate::output::Words;
-use crate::terminal::short;
+use crate::terminal::{listed, short};
 use frfit::sensitivity::{KNOWN_LN_STD, VariableStd, WorstBar, inseparable};
 use frfit_linalg::solve::Breakdown;
 
@@ -147,10 +147,8 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
         of(&best.after)
     )];
     if !best.as_good.is_empty() {
-        let shown: Vec<String> = best.as_good.iter().take(SHOWN).map(|&row| case.row_name(row)).collect();
-        let more = best.as_good.len().saturating_sub(SHOWN);
-        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-        lines.push(format!("as good: {}{rest}", shown.join(", ")));
+        let names: Vec<String> = best.as_good.iter().map(|&row| case.row_name(row)).collect();
+        lines.push(format!("as good: {}", listed(&names, SHOWN)));
     }
     if !others.is_empty() {
         // The parameter is named again only where it is another.

@@ -165,10 +165,10 @@ const MAX_THETA_STEP: f64 = 0.5;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
 const MAX_FREQUENCY_ERROR: f64 = 0.04;
-
-/// What of them another size of the unknown stiffness may take, which is in its error bar: a fifth of that stiffness.
-const MAX_COMMON_ERROR: f64 = 0.1;
 const MAX_SHAPE_ERROR: f64 = 0.3;
+
+/// What of those of frequencies another size of the unknown stiffness may take, which is in its error bar: a fifth of that stiffness.
+const MAX_COMMON_ERROR: f64 = 0.1;
 
 /// The same over the sizes that were given.
 const MAX_ERROR_OVER_GIVEN_SIZE: f64 = 3.0;
