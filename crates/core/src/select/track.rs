@@ -14,7 +14,7 @@ const COVERAGE_NATS: f64 = 40.0;
 /// A path through a band.
 #[derive(Debug, Clone)]
 pub(super) struct Track {
-    /// What was there to be chosen: the band without what better covered but less material paths had taken.
+    /// What was there to be chosen: the band without what paths took that cost less or are no material.
     pub(super) band: Band,
     /// The point chosen at each frequency.
     pub(super) chosen: Vec<Option<usize>>,
@@ -28,6 +28,23 @@ impl Track {
         self.chosen[k].map(|index| &self.band.points[k][index])
     }
 
+    /// Takes its point out of those at a frequency.
+    fn take_from(&self, k: usize, points: &mut Vec<Point>) {
+        if let Some(taken) = self.at(k) {
+            points.retain(|point| !point.is(taken));
+        }
+    }
+
+    /// Takes another path, which has none of its points, out of its band.
+    fn lose(&mut self, other: &Self) {
+        for k in 0..self.chosen.len() {
+            let own = self.at(k).copied();
+            let points = &mut self.band.points[k];
+            other.take_from(k, points);
+            self.chosen[k] = own.and_then(|own| points.iter().position(|point| point.node == own.node));
+        }
+    }
+
     /// The band with nothing but this path.
     pub(super) fn restricted(&self) -> Band {
         let points = (0..self.chosen.len()).map(|k| self.at(k).copied().into_iter().collect());
@@ -38,7 +55,7 @@ impl Track {
 /// The cheapest path, the cheapest without its points, and so on, best score first; those among them that are better than no path at all by
 /// some nats.
 pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
-    let mut tracks = Vec::new();
+    let mut tracks: Vec<Track> = Vec::new();
     let occupied = band.occupied() as f64;
     for _ in 0..MAX_RIVAL_PATHS {
         if band.points.iter().all(Vec::is_empty) {
@@ -51,13 +68,13 @@ pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
         }
         let missing = COVERAGE_NATS * (1.0 - count as f64 / occupied);
         let track = Track { score: material + misfit + missing, band: band.clone(), chosen };
-        for (k, points) in band.points.iter_mut().enumerate() {
-            if let Some(taken) = track.at(k) {
-                points.retain(|point| !point.is(taken));
-            }
-        }
+        band.points.iter_mut().enumerate().for_each(|(k, points)| track.take_from(k, points));
         // Not the misfit, which where the model has errors of its own is larger than usual for the right path too.
-        if material + missing < COVERAGE_NATS - margin {
+        let is_excluded = |nats: f64| nats >= COVERAGE_NATS - margin;
+        if is_excluded(material) {
+            // A smaller curvature must not lead a material's path onto it.
+            tracks.iter_mut().for_each(|other| other.lose(&track));
+        } else if !is_excluded(material + missing) {
             tracks.push(track);
         }
     }
