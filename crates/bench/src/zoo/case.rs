@@ -1,5 +1,6 @@
 //! A case: a model, its material, load and sensors, the band and what is said of the unknown.
 
+use crate::data::{data, matrix};
 use crate::wrong_models::Failure;
 use crate::wrong_models::case::solve;
 use crate::wrong_models::dice::Dice;
@@ -35,12 +36,37 @@ pub enum Kind {
     SprungBeam,
     /// Random springs between random masses, each to each, known and unknown ones.
     Springs,
+    /// Matrices of the Harwell–Boeing collection, see [`PUBLISHED`].
+    Published,
 }
+
+/// Stiffness and mass matrices of the data beside the project.
+const PUBLISHED: [(&str, &str); 6] = [
+    ("plate/bcsstk09.mtx", "plate/bcsstm09.mtx"),
+    ("hb/bcsstk01.mtx", "hb/bcsstm01.mtx"),
+    ("hb/bcsstk06.mtx", "hb/bcsstm06.mtx"),
+    ("hb/bcsstk08.mtx", "hb/bcsstm08.mtx"),
+    ("hb/bcsstk11.mtx", "hb/bcsstm11.mtx"),
+    ("hb/bcsstk12.mtx", "hb/bcsstm12.mtx"),
+];
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Rod, Self::Beam, Self::Plate, Self::Bricks, Self::Sandwich, Self::SprungBeam, Self::Springs];
+    pub const ALL: [Self; 8] = [
+        Self::Rod,
+        Self::Beam,
+        Self::Plate,
+        Self::Bricks,
+        Self::Sandwich,
+        Self::SprungBeam,
+        Self::Springs,
+        Self::Published,
+    ];
+
+    /// That of a case: of those that are made here, each in turn.
+    pub fn of(index: u64) -> Self {
+        Self::ALL[(index % (Self::ALL.len() as u64 - 1)) as usize]
+    }
 }
 
 impl fmt::Display for Kind {
@@ -53,6 +79,7 @@ impl fmt::Display for Kind {
             Self::Sandwich => "sandwich",
             Self::SprungBeam => "sprung beam",
             Self::Springs => "springs",
+            Self::Published => "published",
         })
     }
 }
@@ -100,12 +127,11 @@ const ROUNDOFF: f64 = 1e-11;
 const LOG_STEP: f64 = 1e-5;
 
 impl Case {
-    /// Draws a case of a seed, and measures it by direct solves at every line.
+    /// Draws a case of a kind and a seed, and measures it by direct solves at every line.
     ///
     /// # Errors
     /// Where a model cannot be made or solved: a fault of this benchmark.
-    pub fn draw(seed: u64, index: u64) -> Result<Self, Failure> {
-        let kind = Kind::ALL[(index % Kind::ALL.len() as u64) as usize];
+    pub fn draw(kind: Kind, seed: u64, index: u64) -> Result<Self, Failure> {
         // The wrong models of a seed are other cases.
         let mut dice = Dice::new(seed, index).fork();
         let drawn = Drawn::new(kind, &mut dice)?;
@@ -219,6 +245,7 @@ impl Drawn {
         let (shape, bricks) = match kind {
             Kind::Rod => return Ok(Self::of(rod(dice)?)),
             Kind::Springs => return Ok(Self::of(springs(dice)?)),
+            Kind::Published => return Ok(Self::of(published(dice)?)),
             Kind::Beam => (Shape::Beam, false),
             Kind::Plate => (Shape::Plate, false),
             Kind::Bricks => (dice.pick(&[Shape::Beam, Shape::Plate]), true),
@@ -282,6 +309,17 @@ fn rod(dice: &mut Dice) -> Result<DynamicStiffness, Failure> {
         }
     }
     let terms = vec![term(UNKNOWN, Role::Stiffness, k, ONE), term("mass", Role::Mass, m, ONE)];
+    Ok(DynamicStiffness::new(terms)?)
+}
+
+/// All of the stiffness is unknown.
+fn published(dice: &mut Dice) -> Result<DynamicStiffness, Failure> {
+    let (stiffness, mass) = dice.pick(&PUBLISHED);
+    let term = |name: &str, role: Role, file: &str| -> Result<Term, Failure> {
+        let matrix = matrix(&data().join(file))?;
+        Ok(Term { name: name.to_owned(), role, matrix, factor: Law::Constant(ONE) })
+    };
+    let terms = vec![term(UNKNOWN, Role::Stiffness, stiffness)?, term("mass", Role::Mass, mass)?];
     Ok(DynamicStiffness::new(terms)?)
 }
 

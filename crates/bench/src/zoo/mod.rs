@@ -9,16 +9,16 @@ pub mod case;
 pub mod report;
 
 use crate::wrong_models::Failure;
-use case::Case;
+use case::{Case, Kind};
 use report::Tried;
 
-/// Draws a case of a seed and identifies it.
+/// Draws a case of a kind and a seed and identifies it.
 ///
 /// # Errors
 /// [`Failure`], with the number of the case.
-pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
+pub fn tried(kind: Kind, seed: u64, index: u64) -> Result<Tried, Failure> {
     let run = || {
-        let case = Case::draw(seed, index)?;
+        let case = Case::draw(kind, seed, index)?;
         let (found, seconds) = case.identify()?;
         Tried::new(&case, &found, seconds)
     };
@@ -27,6 +27,7 @@ pub fn tried(seed: u64, index: u64) -> Result<Tried, Failure> {
 
 #[cfg(test)]
 mod tests {
+    use super::case::Kind;
     use super::tried;
     use crate::tier::of_tier;
 
@@ -36,7 +37,7 @@ mod tests {
     fn what_was_refused_by_accident_is_identified() {
         // The three that take longest are of the long tier.
         for &(seed, index) in of_tier(&[(3, 28)][..], &[(2, 31), (3, 28), (1, 0), (2, 13)]) {
-            let tried = tried(seed, index).unwrap();
+            let tried = tried(Kind::of(index), seed, index).unwrap();
             let identifiable = tried.lines.iter().filter(|line| line.identifiable).count();
             assert!(
                 100 * tried.refused() <= 2 * identifiable && tried.wrong() == 0,

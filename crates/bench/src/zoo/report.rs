@@ -159,6 +159,9 @@ pub fn markdown(tried: &[Tried]) -> String {
     let mut rows = vec![heading.to_owned(), "|---|---|---|---|---|---|---|---|---|---|".to_owned()];
     let mut row = |name: &str, of: &dyn Fn(&Tried) -> bool| {
         let group: Vec<&Tried> = tried.iter().filter(|one| of(one)).collect();
+        if group.is_empty() {
+            return;
+        }
         let sum = |of: &dyn Fn(&Tried) -> usize| group.iter().map(|one| of(one)).sum::<usize>();
         let lines = sum(&|one| one.lines.len());
         let identifiable = sum(&|one| one.count(|line| line.identifiable));

@@ -5,11 +5,9 @@ use frfit::frequency::omega_rad_s;
 use frfit::material::{Law, Table};
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit_bench::Structure;
-use frfit_bench::data::{absent, data};
+use frfit_bench::data::{absent, data, matrix};
 use frfit_linalg::sparse::SymmetricMatrix;
-use frfit_workflow::load::symmetric_matrix;
 use std::error::Error;
-use std::path::Path;
 use std::process::Command;
 
 /// Matrices with their roles; the first stands behind the unknown factor, that of the others is 1.
@@ -104,11 +102,4 @@ pub(crate) fn zener(frequency_hz: &[f64]) -> Result<Law, Box<dyn Error>> {
         (g0 + g_infinity * power) / (1.0 + power)
     };
     Ok(Law::Table(Table::new(frequency_hz.to_vec(), frequency_hz.iter().map(at).collect())?))
-}
-
-fn matrix(path: &Path) -> Result<SymmetricMatrix, Box<dyn Error>> {
-    let refused = |error| format!("{}: {error}", path.display());
-    let matrix =
-        frfit_formats::read_matrix(&std::fs::read(path)?).map_err(|error| refused(error.to_string()))?;
-    Ok(symmetric_matrix(&matrix).map_err(|error| refused(error.to_string()))?)
 }
