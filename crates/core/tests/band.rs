@@ -10,7 +10,7 @@ use frfit::frequency::linear_hz;
 use frfit::identify::{Context, Identification, Line, Noise, Stage, Variation};
 use frfit::identify::{Method, Reduction, Selection, Status, relative_error};
 use frfit::material::Law;
-use frfit::model::{DynamicStiffness, Parameter, Role, Term};
+use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit::response::Work;
 use frfit::roots::Bounds;
 use frfit_fem::Mass;
@@ -529,6 +529,44 @@ fn a_nominal_that_is_far_off_needs_no_bounds() {
             assert!(nearest(line, truth.at(line.frequency_hz).unwrap()) < 1e-6, "× {off}: {line:?}");
         }
     }
+}
+
+/// A chain that carries light oscillators, each tuned a little higher than the one before. At the top of the band many modes lie between two of the values of the modulus
+/// for which the models of neighbourhoods are made.
+#[test]
+fn a_dense_band_is_identified_to_its_end() {
+    let (carriers, carried) = (8, 72);
+    let n = carriers + carried;
+    let (mut k, mut m) = (Triplets::new(n), Triplets::new(n));
+    let mut spring = |a: usize, b: usize, stiffness: f64| {
+        k.add_element(&[Some(a), Some(b)], &[1.0, -1.0, -1.0, 1.0].map(|one| one * stiffness));
+    };
+    for i in 0..carriers {
+        spring(i, (i + 1) % carriers, 1.0);
+        m.add(i, i, 1.0);
+    }
+    for j in 0..carried {
+        let (own, mass, omega) = (carriers + j, 0.01, 1.3 + 1.2 * j as f64 / carried as f64);
+        spring(j % carriers, own, mass * omega * omega);
+        m.add(own, own, mass);
+    }
+    let truth = c(1.0, 0.0025);
+    let terms = vec![
+        term("springs", Role::Stiffness, k.assemble(), truth),
+        term("masses", Role::Mass, m.assemble(), c(1.0, 0.0)),
+    ];
+    let model = DynamicStiffness::new(terms).unwrap();
+    let sensor = |row| Sensor { row, sign: 1.0 };
+    let experiment = Experiment::driven_at(n, sensor(3), vec![sensor(6), sensor(1)]);
+    let parameter = Parameter::factor_of(&model, &["springs"]).unwrap();
+    let mut case =
+        Case { name: "carrier", model, experiment, parameter, band_hz: [0.08, 0.3], box_ratio: [0.25, 4.0] };
+    let frequency_hz = linear_hz(0.08, 0.3, 80);
+    let u = measured(&case, &frequency_hz);
+    case.parameter.nominal = Law::Constant(2.8 * truth);
+    let band = identify(&case, &frequency_hz, &u, &Setup::default().with_reduction(Reduction::Subspace));
+    let off = |line: &Line| line.factor().map_or(f64::INFINITY, |factor| (factor - truth).norm());
+    assert!(band.lines.iter().all(|line| line.status == Status::Ok && off(line) < 1e-6));
 }
 
 #[test]

@@ -253,6 +253,7 @@ impl<'m> Subspace<'m> {
             is_definite: kept.is_definite,
             work: Work::default(),
             boxes: kept.boxes.clone(),
+            more_solves: 0,
         })
     }
 }

@@ -41,6 +41,9 @@ const BLOCK: usize = 6;
 /// Lanczos vectors at most.
 const MAX_LANCZOS_VECTORS: usize = 240;
 
+/// What each mode that was brought adds to the solves that a training may take.
+const SOLVES_PER_MODE: usize = 4;
+
 /// ‖Au − θu‖ over |θ| of a Ritz vector that is good enough: the relative error of θ is about its square.
 const RITZ_RTOL: f64 = 1e-4;
 
@@ -117,8 +120,10 @@ impl<'m> Subspace<'m> {
         let missing = model.saturating_sub(basis);
         let mut count = ModeCount { model, missing, brought: 0 };
         if missing > 0 {
+            let before = self.work.solves;
             let modes = self.missing_modes(&factor, missing)?;
             count.brought = self.basis.append(self.model, self.experiment, modes);
+            self.more_solves += self.work.solves - before + SOLVES_PER_MODE * count.brought;
         }
         Ok(Some(count))
     }

@@ -23,6 +23,8 @@ pub struct Subspace<'m> {
     pub(super) work: Work,
     /// Where it was trained.
     pub(super) boxes: Vec<TrainedBox>,
+    /// Solves of a training beyond [`TrainOptions::solves`]: what brought missing modes, and what the modes of the box may take.
+    pub(super) more_solves: usize,
 }
 
 /// σ of the first shift over ω² at the reference frequency: below the band, where K + σM is positive definite for a free structure too.
@@ -46,7 +48,8 @@ impl<'m> Subspace<'m> {
         // A row without any stiffness or mass of its own (a constraint) still needs a weight.
         let weight = diagonal.iter().map(|&d| d.max(1e-12 * largest)).collect();
         let basis = Basis::new(weight, Parts::of(model), experiment);
-        let mut subspace = Self { model, experiment, basis, shift, is_definite, work, boxes: Vec::new() };
+        let mut subspace =
+            Self { model, experiment, basis, shift, is_definite, work, boxes: Vec::new(), more_solves: 0 };
         subspace.start()?;
         Ok(subspace)
     }

@@ -26,7 +26,7 @@ pub struct Point<'m> {
 pub struct TrainOptions {
     /// Largest estimated error ([`super::Assessment::relative_truncation`]) to accept. Default 1e-9.
     pub tolerance: f64,
-    /// Solves after which to give up. Default 400.
+    /// Solves after which to give up, beside those that brought missing modes and four for each of these. Default 400.
     pub solves: usize,
     /// Real factorisations at most. Default 4.
     pub factorisations: usize,
@@ -124,7 +124,10 @@ impl<'m> Subspace<'m> {
             // As long as nothing is right, errors of one round say nothing of the next.
             stalled = if worst < 0.5 * best || worst > MEANINGLESS_ERROR { 0 } else { stalled + 1 };
             best = best.min(worst);
-            if converged || stalled > MAX_STALLED_ROUNDS || self.work.solves >= options.solves {
+            if converged
+                || stalled > MAX_STALLED_ROUNDS
+                || self.work.solves >= options.solves + self.more_solves
+            {
                 return Ok(Trained { error: worst, converged });
             }
             if self.work.solves >= patience && self.work.factorisations < options.factorisations {

@@ -155,14 +155,7 @@ const OFF_PATH_LN_STD: f64 = 0.1;
 /// Of the solutions at a line that the path leaves out the likeliest: by the sensors' misfit, and by the way from the path between
 /// its neighbours.
 fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize) -> Option<usize> {
-    let after = path.partition_point(|&(k, _)| k < i);
-    let neighbours = [after.checked_sub(1), Some(after)].map(|k| k.and_then(|k| path.get(k)));
-    let between = match neighbours {
-        [Some(&(a, from)), Some(&(b, to))] => {
-            Some(from.ln() + (to.ln() - from.ln()) * ((i - a) as f64 / (b - a) as f64))
-        }
-        [one, other] => one.or(other).map(|&(_, factor)| factor.ln()),
-    };
+    let between = along(path, i);
     let least = found.solutions.iter().map(|s| s.misfit).min_by(f64::total_cmp)?;
     let scale = (least / fit.measured.len().max(1) as f64).max(f64::MIN_POSITIVE);
     let cost = |k: &usize| {
@@ -173,4 +166,16 @@ fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize)
         misfit + (way / OFF_PATH_LN_STD).powi(2)
     };
     (0..found.solutions.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
+}
+
+/// ln of the factor to which a path (frequency, factor) leads: between its neighbours, or where the nearest one is.
+pub(super) fn along(path: &[(usize, c64)], i: usize) -> Option<c64> {
+    let after = path.partition_point(|&(k, _)| k < i);
+    let neighbours = [after.checked_sub(1), Some(after)].map(|k| k.and_then(|k| path.get(k)));
+    match neighbours {
+        [Some(&(a, from)), Some(&(b, to))] => {
+            Some(from.ln() + (to.ln() - from.ln()) * ((i - a) as f64 / (b - a) as f64))
+        }
+        [one, other] => one.or(other).map(|&(_, factor)| factor.ln()),
+    }
 }

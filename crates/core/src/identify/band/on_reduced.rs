@@ -3,6 +3,7 @@
 use super::candidates::{Candidates, LineCandidates};
 use super::continuation::{Continuation, continued};
 use super::exploration_grid::exploration_grid;
+use super::joint::along;
 use super::neighbourhoods::Neighbourhoods;
 use super::task::{BandSolution, PathSelection, Task};
 use crate::c64;
@@ -22,7 +23,8 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut Neighbourhoods<'_, '
     } else {
         exploration_grid(task.band.frequency_hz, reduced.neighbourhoods())
     };
-    let (found, selected) = explored(task, reduced, &grid);
+    let found = explored(task, reduced, &grid);
+    let (found, selected) = along_path(task, reduced, &grid, found);
     if grid.len() == all.len() {
         return BandSolution { explored: all.len(), found, selected };
     }
@@ -42,8 +44,50 @@ pub(super) fn on_reduced(task: &Task<'_, '_>, reduced: &mut Neighbourhoods<'_, '
     }
     let explored = found.iter().filter(|found| found.whole).count();
     let found = found.into_iter().map(|found| found.explored).collect();
-    let (found, selected) = certified(task, reduced, &all, found, ready);
+    let found = certified(task, reduced, &all, found, ready);
+    let (found, selected) = along_path(task, reduced, &all, found);
     BandSolution { found, explored, selected }
+}
+
+/// Times that a path is made longer at most.
+const MAX_EXTENSIONS: usize = 3;
+
+/// Where the path has nothing, the models of neighbourhoods are made good at the values to which it leads, and everything is searched again: in a dense band a mode
+/// between the values that a model was made for is missing in it, and with it the solution.
+fn along_path(
+    task: &Task<'_, '_>,
+    reduced: &mut Neighbourhoods<'_, '_>,
+    grid: &[usize],
+    (mut found, mut selected): (Vec<Candidates>, PathSelection),
+) -> (Vec<Candidates>, PathSelection) {
+    for _ in 0..MAX_EXTENSIONS {
+        let nominal = |k: usize| task.at[grid[k]].parameters[0].nominal;
+        let chosen = |(k, choice): (usize, &Choice)| {
+            Some((k, nominal(k) + found[k].solutions[choice.chosen?].correction))
+        };
+        let path: Vec<(usize, c64)> = selected.choices.iter().enumerate().filter_map(chosen).collect();
+        // A path through little of the band may be a wrong one.
+        if 2 * path.len() < grid.len() {
+            break;
+        }
+        let lost: Vec<usize> =
+            (0..grid.len()).filter(|k| path.binary_search_by_key(k, |&(k, _)| k).is_err()).collect();
+        let led = |k: usize| Some((grid[k], along(&path, k)?.exp() - nominal(k)));
+        let led: Vec<(usize, c64)> = lost.iter().filter_map(|&k| led(k)).collect();
+        let correction = |i: usize| led.binary_search_by_key(&i, |&(i, _)| i).ok().map(|k| led[k].1);
+        let lacking = reduced.lacking(correction, task.context.for_each);
+        if lacking.is_empty() || !reduced.refine(&lacking, task.context).unwrap_or(false) {
+            break;
+        }
+        let which: Vec<usize> = lost.iter().map(|&k| grid[k]).collect();
+        let again = found_at(task, reduced, &which);
+        lost.iter().zip(again).for_each(|(&k, again)| found[k] = again);
+        (found, selected) = certified(task, reduced, grid, found, None);
+        if selected.choices.iter().filter(|choice| choice.chosen.is_some()).count() <= path.len() {
+            break;
+        }
+    }
+    (found, selected)
 }
 
 /// What there is at some frequencies (ascending), certified, and the choice among that.
