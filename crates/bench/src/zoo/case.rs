@@ -36,7 +36,7 @@ pub enum Kind {
     SprungBeam,
     /// Random springs between random masses, each to each, known and unknown ones.
     Springs,
-    /// Matrices of the Harwell–Boeing collection, see [`PUBLISHED`].
+    /// Matrices of the Harwell–Boeing collection.
     Published,
 }
 
