@@ -253,7 +253,7 @@ fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String
         ),
         Fault::NoSignal => (
             "no_signal",
-            "the channel shows nothing: at most 1e-11 of what another one shows; it is left out".to_owned(),
+            "the channel shows nothing: at most 1e-9 of what another one shows; it is left out".to_owned(),
             format!("cable and channel of {measurements}, or take it out of the case"),
         ),
         Fault::Mesh { row_hz, top_hz } => (

@@ -201,7 +201,7 @@ pub enum Fault {
         /// True over nominal value.
         ratio: f64,
     },
-    /// The channel shows nothing: at most 1e-11 of what another one shows. It is left out of everything else.
+    /// The channel shows nothing: at most 1e-9 of what another one shows. It is left out of everything else.
     NoSignal,
     /// The band goes beyond what the mesh can carry.
     Mesh {

@@ -141,7 +141,7 @@ pub struct SensorFit {
     pub misfit: Option<f64>,
     /// Whether it contradicts all others, which agree with one another without it.
     pub contradicts: bool,
-    /// Whether it shows nothing beside the others: at most 1e-11 of the largest response.
+    /// Whether it shows nothing beside the others: at most 1e-9 of the largest response.
     pub dead: bool,
     /// Whether it was left out for that, or for its contradiction.
     pub left_out: bool,
