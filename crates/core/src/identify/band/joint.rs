@@ -6,7 +6,7 @@ use super::neighbourhoods::Neighbourhoods;
 use super::on_reduced::{explored, on_reduced};
 use super::outcome::BandOutcome;
 use super::outlier_sensor::contradicting;
-use super::task::{BandSolution, PathSelection, Task};
+use super::task::{BandSolution, Task, led_to};
 use super::verdict::{Evidence, verdict};
 use crate::c64;
 use crate::for_each::map;
@@ -50,13 +50,10 @@ pub(super) fn identify<'a>(
         }
     };
     work += spent;
-    let BandSolution { found, explored, selected: PathSelection { choices, .. } } = solved;
+    let BandSolution { found, explored, selected } = solved;
+    let path = selected.path(&found, |i| at[i].parameters[0].nominal);
+    let choices = selected.choices;
     let noise = task.noise_level(&found, &choices);
-    let path: Vec<(usize, c64)> = (0..at.len())
-        .filter_map(|i| {
-            Some((i, at[i].parameters[0].nominal + found[i].solutions[choices[i].chosen?].correction))
-        })
-        .collect();
     let lines: Vec<Line> = map(context.for_each, at.len(), |i| {
         let solution = choices[i].chosen.or_else(|| likeliest(&task.fit(i), &found[i], &path, i));
         let chosen = solution.map(|k| &found[i].solutions[k]);
@@ -155,7 +152,7 @@ const OFF_PATH_LN_STD: f64 = 0.1;
 /// Of the solutions at a line that the path leaves out the likeliest: by the sensors' misfit, and by the way from the path between
 /// its neighbours.
 fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize) -> Option<usize> {
-    let between = along(path, i);
+    let between = led_to(path, i);
     let least = found.solutions.iter().map(|s| s.misfit).min_by(f64::total_cmp)?;
     let scale = (least / fit.measured.len().max(1) as f64).max(f64::MIN_POSITIVE);
     let cost = |k: &usize| {
@@ -166,16 +163,4 @@ fn likeliest(fit: &Fit<'_>, found: &Candidates, path: &[(usize, c64)], i: usize)
         misfit + (way / OFF_PATH_LN_STD).powi(2)
     };
     (0..found.solutions.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
-}
-
-/// ln of the factor to which a path (frequency, factor) leads: between its neighbours, or where the nearest one is.
-pub(super) fn along(path: &[(usize, c64)], i: usize) -> Option<c64> {
-    let after = path.partition_point(|&(k, _)| k < i);
-    let neighbours = [after.checked_sub(1), Some(after)].map(|k| k.and_then(|k| path.get(k)));
-    match neighbours {
-        [Some(&(a, from)), Some(&(b, to))] => {
-            Some(from.ln() + (to.ln() - from.ln()) * ((i - a) as f64 / (b - a) as f64))
-        }
-        [one, other] => one.or(other).map(|&(_, factor)| factor.ln()),
-    }
 }

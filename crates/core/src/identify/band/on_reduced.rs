@@ -3,9 +3,8 @@
 use super::candidates::{Candidates, LineCandidates};
 use super::continuation::{Continuation, continued};
 use super::exploration_grid::exploration_grid;
-use super::joint::along;
 use super::neighbourhoods::Neighbourhoods;
-use super::task::{BandSolution, PathSelection, Task};
+use super::task::{BandSolution, PathSelection, Task, led_to};
 use crate::c64;
 use crate::select::Choice;
 use crate::subspace::Projection;
@@ -62,17 +61,13 @@ fn along_path(
 ) -> (Vec<Candidates>, PathSelection) {
     for _ in 0..MAX_EXTENSIONS {
         let nominal = |k: usize| task.at[grid[k]].parameters[0].nominal;
-        let chosen = |(k, choice): (usize, &Choice)| {
-            Some((k, nominal(k) + found[k].solutions[choice.chosen?].correction))
-        };
-        let path: Vec<(usize, c64)> = selected.choices.iter().enumerate().filter_map(chosen).collect();
+        let path = selected.path(&found, nominal);
         // A path through little of the band may be a wrong one.
         if 2 * path.len() < grid.len() {
             break;
         }
-        let lost: Vec<usize> =
-            (0..grid.len()).filter(|k| path.binary_search_by_key(k, |&(k, _)| k).is_err()).collect();
-        let led = |k: usize| Some((grid[k], along(&path, k)?.exp() - nominal(k)));
+        let lost: Vec<usize> = (0..grid.len()).filter(|&k| selected.choices[k].chosen.is_none()).collect();
+        let led = |k: usize| Some((grid[k], led_to(&path, k)?.exp() - nominal(k)));
         let led: Vec<(usize, c64)> = lost.iter().filter_map(|&k| led(k)).collect();
         let correction = |i: usize| led.binary_search_by_key(&i, |&(i, _)| i).ok().map(|k| led[k].1);
         let lacking = reduced.lacking(correction, task.context.for_each);

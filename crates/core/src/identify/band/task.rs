@@ -29,6 +29,28 @@ pub(super) struct PathSelection {
     pub(super) level: Option<f64>,
 }
 
+impl PathSelection {
+    /// The place and the factor of each frequency at which something is chosen.
+    pub(super) fn path(&self, found: &[Candidates], nominal: impl Fn(usize) -> c64) -> Vec<(usize, c64)> {
+        let chosen = |(k, choice): (usize, &Choice)| {
+            Some((k, nominal(k) + found[k].solutions[choice.chosen?].correction))
+        };
+        self.choices.iter().enumerate().filter_map(chosen).collect()
+    }
+}
+
+/// ln of the factor to which a path (place, factor) leads at a place: between its neighbours, or where the nearest one is.
+pub(super) fn led_to(path: &[(usize, c64)], place: usize) -> Option<c64> {
+    let after = path.partition_point(|&(k, _)| k < place);
+    let neighbours = [after.checked_sub(1), Some(after)].map(|k| k.and_then(|k| path.get(k)));
+    match neighbours {
+        [Some(&(a, from)), Some(&(b, to))] => {
+            Some(from.ln() + (to.ln() - from.ln()) * ((place - a) as f64 / (b - a) as f64))
+        }
+        [one, other] => one.or(other).map(|&(_, factor)| factor.ln()),
+    }
+}
+
 /// What was found at every frequency, at how many frequencies all solutions were searched, and what was chosen.
 pub(super) struct BandSolution {
     pub(super) found: Vec<Candidates>,
