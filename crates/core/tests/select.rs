@@ -305,12 +305,16 @@ proptest! {
     ) {
         let (first, ratio, count) = band;
         let frequency_hz = linear_hz(first, first * ratio, count);
-        let branches: Vec<_> = branches.into_iter().filter(|branch| branch.is_steep(&frequency_hz)).collect();
+        let are_steep = branches.iter().all(|branch| branch.is_steep(&frequency_hz));
         let made = make(&law, &branches, frequency_hz, 0.0, lost, strays, seed);
         let choices = choose(&made.frequency_hz, &made.nodes, &SelectOptions::default());
         let (right, wrong) = made.count(&choices);
         prop_assert_eq!(wrong, 0);
-        prop_assert!(right as f64 >= 0.95 * made.present() as f64, "{right} of {}", made.present());
+        prop_assert!(
+            !are_steep || right as f64 >= 0.95 * made.present() as f64,
+            "{right} of {}",
+            made.present()
+        );
     }
 
     /// The same with scatter, of a size that is given or not: then what scatters most is left out.
@@ -333,8 +337,7 @@ proptest! {
         }
         let choices = choose(&made.frequency_hz, &nodes, &SelectOptions::default());
         let (right, wrong) = made.count(&choices);
-        // Of some twenty strays one may lie where noise could have put the right solution.
-        prop_assert!(wrong <= 1, "{wrong}");
+        prop_assert_eq!(wrong, 0);
         prop_assert!(right as f64 >= 0.7 * made.present() as f64, "{right} of {}", made.present());
     }
 
