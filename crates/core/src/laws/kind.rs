@@ -150,9 +150,12 @@ impl LawKind {
         Self::Maxwell { branches: 4 },
     ];
 
-    /// A law of every kind, in the order in which they are listed.
-    pub const FAMILIES: [Self; 4] =
-        [Self::Constant, Self::Fractional, Self::FractionalZener, Self::Maxwell { branches: USUAL_BRANCHES }];
+    /// One law of each family of [`Self::ALL`]: of the generalised Maxwell law that with the usual number of branches.
+    pub fn families() -> impl Iterator<Item = Self> {
+        let is_usual =
+            |kind: &Self| !matches!(kind, Self::Maxwell { branches } if *branches != USUAL_BRANCHES);
+        Self::ALL.into_iter().filter(is_usual)
+    }
 
     /// The kind and the parameters of a law; `None` of a table.
     pub fn of(law: &Law) -> Option<(Self, Vec<f64>)> {
@@ -331,7 +334,7 @@ impl FromStr for LawKind {
 
     fn from_str(text: &str) -> Result<Self, UnknownLawKind> {
         let unknown = || UnknownLawKind { found: text.to_owned() };
-        if let Some(kind) = Self::FAMILIES.into_iter().find(|kind| kind.word() == text) {
+        if let Some(kind) = Self::families().find(|kind| kind.word() == text) {
             return Ok(kind);
         }
         let number = text.strip_prefix("maxwell:").ok_or_else(unknown)?;

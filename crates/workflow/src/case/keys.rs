@@ -63,13 +63,13 @@ pub(super) static SECTIONS: LazyLock<Vec<&'static Section>> = LazyLock::new(|| {
 
 /// The laws of a factor over frequency, each with its section, made of its parameters.
 pub(super) static LAWS: LazyLock<Vec<(LawKind, Section)>> = LazyLock::new(|| {
-    let laws = LawKind::FAMILIES.into_iter().filter(|kind| *kind != LawKind::Constant);
+    let laws = LawKind::families().filter(|kind| *kind != LawKind::Constant);
     laws.map(|kind| (kind, section_of(kind))).collect()
 });
 
 /// The words of these laws: `"fractional", "zener" or "maxwell"`.
 pub(super) fn law_words() -> String {
-    let words = LawKind::FAMILIES.into_iter().filter(|kind| *kind != LawKind::Constant);
+    let words = LawKind::families().filter(|kind| *kind != LawKind::Constant);
     let words: Vec<String> = words.map(|kind| format!("{:?}", kind.word())).collect();
     let (last, others) = words.split_last().expect("there are laws");
     format!("{} or {last}", others.join(", "))
