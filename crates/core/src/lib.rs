@@ -90,6 +90,7 @@ pub mod dof;
 pub mod efficiency;
 pub mod for_each;
 pub mod frequency;
+mod frfs;
 mod halton;
 pub mod identify;
 pub mod laws;

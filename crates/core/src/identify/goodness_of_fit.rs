@@ -1,6 +1,7 @@
 //! Whether the model explains the band: χ² and its meaning.
 
-use super::noise::{Noise, NoiseLevel, NoiseSource};
+use super::noise::{NoiseLevel, NoiseSource};
+use crate::frfs::Noise;
 
 /// How well the answers explain the sensors over the band.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! What was measured on what: a band with one unknown.
 
 use super::coarser_mesh::CoarserMesh;
-use super::noise::Noise;
 use super::unknown::Unknown;
 use crate::c64;
+use crate::frfs::Noise;
 use crate::model::{DynamicStiffness, Experiment, Parameter};
 
 /// What was measured on what.

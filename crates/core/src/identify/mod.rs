@@ -41,6 +41,7 @@ mod thinned;
 mod uncertainty;
 mod unknown;
 
+pub use crate::frfs::{Frfs, Noise};
 pub use crate::response::relative_error;
 pub use band::SmoothCurve;
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
@@ -56,12 +57,11 @@ pub use model_errors::{
     Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, LeverageOf, MeshError,
     ModeError, ModelErrorsFound, SensorMass,
 };
-pub(crate) use noise::standard_deviations;
-pub use noise::{Noise, NoiseLevel, NoiseSource};
+pub use noise::{NoiseLevel, NoiseSource};
 pub use one::{error_by_order, identify_at};
 pub use options::{ErrorSizes, MAX_ORDER, ModelErrors, Options, OptionsError};
 pub use outcome::{Line, LineSolution, LineValue, Standing, Status, Trust};
-pub use problem::{Frfs, Problem};
+pub use problem::Problem;
 pub use problem_error::ProblemError;
 pub use reduced_band::ReducedBand;
 pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};

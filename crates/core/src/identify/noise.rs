@@ -3,32 +3,15 @@
 use super::thinned::thinned;
 use crate::c64;
 use crate::frequency::omega_rad_s;
+use crate::frfs::Noise;
 use crate::median::median;
 use crate::select::{Choice, Node};
-
-/// Where no standard deviation is given, sensors count by their own size, but not below this fraction of their median over the band: an antiresonance is
-/// not measured any better than the rest.
-const MIN_SIZE_OVER_MEDIAN: f64 = 0.1;
-
-/// No instrument is better than this fraction of the largest response: a smaller standard deviation, or none at all, is not believed.
-const MIN_STD_OVER_LARGEST: f64 = 1e-9;
 
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
 pub(super) const MIN_NOISE_LEVEL: f64 = 1e-6;
 
 /// Answers with two neighbours on either side that a scatter is estimated from: with fewer, a median is an accident.
 const MIN_SCATTER_ANSWERS: usize = 12;
-
-/// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Noise<'a> {
-    /// Not known: in proportion to the responses, by a factor that is estimated from several sensors.
-    Unknown,
-    /// Known up to a common factor, as from a coherence without the number of averages.
-    Relative(&'a [Vec<f64>]),
-    /// Known.
-    Known(&'a [Vec<f64>]),
-}
 
 /// Where the level of the noise is known from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,27 +70,6 @@ impl NoiseLevel {
     /// Nothing known, as where each frequency is answered alone.
     pub(super) const UNKNOWN: Self =
         Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None };
-}
-
-/// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(crate) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
-    let sensors = 0..measured.first().map_or(0, Vec::len);
-    let sorted = |m: usize| {
-        let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();
-        sizes.sort_by(f64::total_cmp);
-        sizes
-    };
-    let sizes: Vec<Vec<f64>> = sensors.map(sorted).collect();
-    let row = |(i, u): (usize, &Vec<c64>)| {
-        let of = |(m, u): (usize, &c64)| match noise {
-            Noise::Known(std) | Noise::Relative(std) => {
-                (std[i][m] / 2f64.sqrt()).max(MIN_STD_OVER_LARGEST * sizes[m][sizes[m].len() - 1])
-            }
-            Noise::Unknown => u.norm().max(MIN_SIZE_OVER_MEDIAN * sizes[m][sizes[m].len() / 2]),
-        };
-        u.iter().enumerate().map(of).collect()
-    };
-    measured.iter().enumerate().map(row).collect()
 }
 
 /// Half the width of the neighbourhood that has the level of a response, in ln ω: a third of an octave in all.

@@ -1,14 +1,11 @@
 //! How to identify.
 
 use super::choice::{Method, Reduction, Selection, UnknownChoice};
-use super::unknown::Unknown;
+use super::unknown::{NEAR_BOX_RATIO, Unknown};
 use crate::c64;
 use crate::with_fields::with_fields;
 use std::fmt;
 use std::str::FromStr;
-
-/// Nominal values further off are estimates of another kind: `whole_box`.
-pub(super) const NEAR_BOX_RATIO: f64 = 4.0;
 
 /// The whole of the bounds, but no farther than this factor to either side: a box without end has no grid.
 const WHOLE_BOX_RATIO: f64 = 1e6;

@@ -4,28 +4,16 @@ use super::channel::ChannelUnknowns;
 use super::choice::{Method, Reduction, Selection};
 use super::coarser_mesh::CoarserMesh;
 use super::measured::Band;
-use super::noise::Noise;
 use super::options::{ModelErrors, Options};
 use super::problem_error::{ProblemError, value};
 use super::unknown::{Composite, Dependence, Unknown, Variation};
 use crate::c64;
+use crate::frfs::{Frfs, Noise};
 use crate::laws::LawKind;
 use crate::material::OutsideTable;
 use crate::model::{DynamicStiffness, Experiment, ModelAt, Parameter};
 use crate::roots::BoundsError;
 use std::fmt;
-
-/// Measured frequency response functions.
-#[derive(Debug, Clone, Copy)]
-pub struct Frfs<'a> {
-    /// Frequencies, strictly ascending.
-    pub frequency_hz: &'a [f64],
-    /// Receptance, `[frequency][sensor]`, m/N: of windowed records that of
-    /// [`Quantity::over_receptance_windowed`](crate::quantity::Quantity::over_receptance_windowed), with the decay of the model.
-    pub receptance: &'a [Vec<c64>],
-    /// How well each was measured.
-    pub noise: Noise<'a>,
-}
 
 /// A problem without a fault that could be seen before it is solved.
 #[derive(Debug, Clone)]

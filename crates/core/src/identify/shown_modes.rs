@@ -1,10 +1,10 @@
 //! The modes that some lines and sensors of a band show.
 
-use super::noise::Noise;
-use super::problem::Frfs;
 use super::thinned::thinned;
 use crate::c64;
 use crate::for_each::ForEach;
+use crate::frfs::Frfs;
+use crate::frfs::Noise;
 use crate::modal::{MeasuredMode, PoleOptions, measured_modes};
 use std::f64::consts::TAU;
 

@@ -1,11 +1,13 @@
 //! The unknowns of an identification.
 
 use crate::c64;
-use crate::identify::options::NEAR_BOX_RATIO;
 use crate::laws::LawKind;
 use crate::material::{Law, OutsideTable};
 use crate::model::{DynamicStiffness, Member, ModelAt, ModelError, Parameter, ParameterAt, WeightedTerm};
 use crate::roots::{Bounds, RootOptions};
+
+/// Nominal values further off are estimates of another kind: `whole_box`.
+pub(super) const NEAR_BOX_RATIO: f64 = 4.0;
 
 /// How an unknown varies over the band.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use super::stabilisation::{MAX_DAMPING_RATIO, ORDER_STEP, PoleAtOrder, stabilisa
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::frequency::{damping_ratio, natural_frequency_hz, omega_rad_s};
-use crate::identify::{Frfs, Noise, standard_deviations};
+use crate::frfs::{Frfs, Noise, standard_deviations};
 use crate::with_fields::with_fields;
 use frfit_linalg::dense::NoConvergence;
 

@@ -10,12 +10,13 @@ use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::frfs::standard_deviations;
 use crate::identify::channel::{
     Calibrated, Calibration, Channel, ChannelNumber, ChannelUnknowns, numbers_of,
 };
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
-use crate::identify::noise::{standard_deviations, without};
+use crate::identify::noise::without;
 use crate::identify::options::Options;
 use crate::identify::outcome::Status;
 use crate::identify::uncertainty::Uncertainty;

@@ -7,6 +7,7 @@ use super::scaled::Scaled;
 use crate::c64;
 use crate::for_each::map;
 use crate::frequency::omega_rad_s;
+use crate::frfs::{Noise, standard_deviations};
 use crate::identify::channel::ChannelUnknowns;
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::Context;
@@ -15,7 +16,7 @@ use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline,
 };
 use crate::identify::model_errors::{Explanation, covariance, estimate};
-use crate::identify::noise::{Noise, levels, standard_deviations, without};
+use crate::identify::noise::{levels, without};
 use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::{Line, Status};
 use crate::identify::thinned::thinned;

@@ -1,9 +1,10 @@
 //! A band as it is with other calibrations and with what is beside its noise.
 
 use crate::c64;
+use crate::frfs::Noise;
 use crate::identify::channel::Channel;
 use crate::identify::measured::Band;
-use crate::identify::noise::{Noise, beside, levels};
+use crate::identify::noise::{beside, levels};
 
 /// What was measured with each channel's calibration, and its standard deviations with it and with what is beside the noise.
 pub(super) struct Scaled {

@@ -2,9 +2,10 @@
 
 use super::candidates::{Candidates, Fit, Solution};
 use crate::c64;
+use crate::frfs::Noise;
 use crate::identify::context::{Context, Stage};
 use crate::identify::measured::Band;
-use crate::identify::noise::{Noise, NoiseLevel, freedom, of_scatter, of_sensors};
+use crate::identify::noise::{NoiseLevel, freedom, of_scatter, of_sensors};
 use crate::identify::options::Options;
 use crate::model::ModelAt;
 use crate::select::{Choice, Node, SelectOptions, choose};

@@ -1,14 +1,20 @@
 //! The errors of a model as a search has them, with their covariance.
 
 use super::curve::Curves;
-use super::found::ContradictedAssumption;
+use super::found::{
+    CalibrationError, ContradictedAssumption, FactorError, ModeError, ModelErrorsFound, SensorMass,
+};
 use super::mesh::{BetweenMeshes, MeshError};
 use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::identify::channel::Calibration;
 use crate::identify::channel_coordinates::ChannelCoordinates;
-use crate::subspace::{ModalErrors, Modes};
+use crate::subspace::{self, ModalErrors, Modes};
+use std::f64::consts::TAU;
+
+/// Modes up to this far above the band are reported.
+const LISTED_ABOVE_BAND: f64 = 1.2;
 
 /// The errors of a model, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +48,69 @@ pub(in crate::identify) struct Estimated {
 }
 
 impl Estimated {
+    /// What is reported to users.
+    pub(in crate::identify) fn found(&self) -> ModelErrorsFound {
+        let (n, first) = (self.count(), self.first_of_modes());
+        let covariance = |a: usize, b: usize| self.covariance[(first + a) * n + first + b];
+        let mode = |(i, omega): (usize, &f64)| {
+            let own = self.modes.frequency_errors(i).map(|error| first + error);
+            let all: Vec<usize> = own.chain(self.of_scale()).collect();
+            let variance: f64 =
+                all.iter().flat_map(|&a| all.iter().map(move |&b| self.covariance[a * n + b])).sum();
+            let own: f64 = self.modes.frequency_errors(i).map(|error| self.errors.stiffness[error]).sum();
+            ModeError {
+                frequency_hz: omega / TAU,
+                error: own + self.errors.scale,
+                std: variance.max(0.0).sqrt(),
+                coarser_hz: self
+                    .mesh
+                    .as_ref()
+                    .and_then(|mesh| mesh.partner_rad_s[i])
+                    .map(|omega| omega / TAU),
+            }
+        };
+        let of_factors = self.modes.of_error.len();
+        let std = |c: usize| covariance(c, c).max(0.0).sqrt();
+        let factor = |(t, &subspace::FactorError { term, part, error })| FactorError {
+            term,
+            part,
+            error,
+            std: std(of_factors + t),
+        };
+        let first_mass = of_factors + self.factors.len();
+        let mass = |(m, (error, apparent)): (usize, (&f64, &f64))| SensorMass {
+            mass: error * apparent,
+            std: std(first_mass + m) * apparent,
+        };
+        let first_gain = first_mass + self.errors.masses.len();
+        let calibration = |(m, &error): (usize, &f64)| CalibrationError { error, std: std(first_gain + m) };
+        let is_listed = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
+        let [frequency_std, loss_factor_std, shape_std] = self.sizes;
+        let errors_of_known =
+            self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);
+        ModelErrorsFound {
+            frequency_std,
+            loss_factor_std,
+            shape_std,
+            response_std: 2f64.sqrt() * self.rest,
+            modes: self
+                .modes
+                .omega_rad_s
+                .iter()
+                .enumerate()
+                .filter(|(_, omega)| is_listed(omega))
+                .map(mode)
+                .collect(),
+            factors: errors_of_known.map(factor).collect(),
+            calibrations: self.errors.gains.iter().enumerate().map(calibration).collect(),
+            mesh: self.mesh_error,
+            contradicted_assumptions: self.contradicted_assumptions.clone(),
+            bars_over_noise: self.bars_over_noise,
+            masses: self.errors.masses.iter().zip(&self.modes.apparent_mass).enumerate().map(mass).collect(),
+            evidence: self.evidence,
+        }
+    }
+
     pub(in crate::identify) fn theta(&self) -> &[f64] {
         &self.place[..self.curves.count()]
     }

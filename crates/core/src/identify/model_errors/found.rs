@@ -1,10 +1,7 @@
 //! What was found of the errors of a model.
 
-use super::estimated::Estimated;
 use super::mesh::MeshError;
 use crate::model::FactorPart;
-use crate::subspace;
-use std::f64::consts::TAU;
 
 /// The errors of a model (B-11): relative, as (truth − model)/model.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,74 +136,6 @@ impl LeverageOf {
         match self {
             Self::Factor(_) => 1.0,
             Self::Mesh => 3.0,
-        }
-    }
-}
-
-/// Modes up to this far above the band are reported.
-const LISTED_ABOVE_BAND: f64 = 1.2;
-
-impl Estimated {
-    /// What is reported to users.
-    pub(in crate::identify) fn found(&self) -> ModelErrorsFound {
-        let (n, first) = (self.count(), self.first_of_modes());
-        let covariance = |a: usize, b: usize| self.covariance[(first + a) * n + first + b];
-        let mode = |(i, omega): (usize, &f64)| {
-            let own = self.modes.frequency_errors(i).map(|error| first + error);
-            let all: Vec<usize> = own.chain(self.of_scale()).collect();
-            let variance: f64 =
-                all.iter().flat_map(|&a| all.iter().map(move |&b| self.covariance[a * n + b])).sum();
-            let own: f64 = self.modes.frequency_errors(i).map(|error| self.errors.stiffness[error]).sum();
-            ModeError {
-                frequency_hz: omega / TAU,
-                error: own + self.errors.scale,
-                std: variance.max(0.0).sqrt(),
-                coarser_hz: self
-                    .mesh
-                    .as_ref()
-                    .and_then(|mesh| mesh.partner_rad_s[i])
-                    .map(|omega| omega / TAU),
-            }
-        };
-        let of_factors = self.modes.of_error.len();
-        let std = |c: usize| covariance(c, c).max(0.0).sqrt();
-        let factor = |(t, &subspace::FactorError { term, part, error })| FactorError {
-            term,
-            part,
-            error,
-            std: std(of_factors + t),
-        };
-        let first_mass = of_factors + self.factors.len();
-        let mass = |(m, (error, apparent)): (usize, (&f64, &f64))| SensorMass {
-            mass: error * apparent,
-            std: std(first_mass + m) * apparent,
-        };
-        let first_gain = first_mass + self.errors.masses.len();
-        let calibration = |(m, &error): (usize, &f64)| CalibrationError { error, std: std(first_gain + m) };
-        let is_listed = |omega: &f64| *omega > 0.0 && *omega <= LISTED_ABOVE_BAND * self.highest_rad_s;
-        let [frequency_std, loss_factor_std, shape_std] = self.sizes;
-        let errors_of_known =
-            self.errors.factors.iter().enumerate().filter(|(t, _)| self.factors[*t].is_known);
-        ModelErrorsFound {
-            frequency_std,
-            loss_factor_std,
-            shape_std,
-            response_std: 2f64.sqrt() * self.rest,
-            modes: self
-                .modes
-                .omega_rad_s
-                .iter()
-                .enumerate()
-                .filter(|(_, omega)| is_listed(omega))
-                .map(mode)
-                .collect(),
-            factors: errors_of_known.map(factor).collect(),
-            calibrations: self.errors.gains.iter().enumerate().map(calibration).collect(),
-            mesh: self.mesh_error,
-            contradicted_assumptions: self.contradicted_assumptions.clone(),
-            bars_over_noise: self.bars_over_noise,
-            masses: self.errors.masses.iter().zip(&self.modes.apparent_mass).enumerate().map(mass).collect(),
-            evidence: self.evidence,
         }
     }
 }

@@ -31,12 +31,13 @@ mod tuned;
 
 use super::goodness_of_fit::{GoodnessOfFit, MIN_DOUBTFUL_MISFIT};
 use super::local_fit::of_responses;
-use super::noise::{Noise, beside};
+use super::noise::beside;
 use super::options::ErrorSizes;
 use super::outcome::Line;
 use super::thinned::thinned;
 use crate::c64;
 use crate::for_each::ForEach;
+use crate::frfs::Noise;
 use crate::median::median;
 use crate::model::{FactorPart, ModelAt, Role};
 use crate::subspace::{Modes, Point, Projection};

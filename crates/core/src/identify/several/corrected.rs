@@ -8,13 +8,14 @@ use super::outcome::SeveralOutcome;
 use super::search::{BandSolution, Begin};
 use crate::c64;
 use crate::for_each::map;
+use crate::frfs::{Noise, standard_deviations};
 use crate::identify::band::{MAX_TRAINING_ROUNDS, nearest};
 use crate::identify::form::Form;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline, estimate,
     estimate_with_laws,
 };
-use crate::identify::noise::{Noise, beside, levels, standard_deviations, without};
+use crate::identify::noise::{beside, levels, without};
 use crate::identify::options::ModelErrors;
 use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::Datum;

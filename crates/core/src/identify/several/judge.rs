@@ -9,12 +9,13 @@ use super::outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Pro
 use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
 use crate::for_each::map;
+use crate::frfs::Noise;
 use crate::identify::band::reduction_error;
 use crate::identify::channel::ChannelNumber;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::local_fit::of_responses;
 use crate::identify::model_errors::{Estimated, Split};
-use crate::identify::noise::{Noise, NoiseLevel};
+use crate::identify::noise::NoiseLevel;
 use crate::identify::outcome::{Line, LineSolution, LineValue, Standing, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};

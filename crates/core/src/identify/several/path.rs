@@ -2,7 +2,7 @@
 
 use super::Task;
 use super::at_frequency::{FrequencyProblem, Solution};
-use crate::identify::noise::Noise;
+use crate::frfs::Noise;
 use crate::identify::unknown::Unknown;
 use crate::least_squares::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};

@@ -6,7 +6,6 @@ use super::coordinates::Coordinates;
 use super::information::Information;
 use super::neighbourhoods::{Answer, Neighbourhoods, ROUGH_MODEL_TOL, between, in_box};
 use super::path::Chosen;
-use super::starts::LOG_RESPONSE_FREQUENCIES;
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, MAX_TRAINING_ROUNDS, nearest};
@@ -17,6 +16,9 @@ use crate::identify::unknown::Unknown;
 use crate::laws::{Datum, Parametrization};
 use crate::least_squares::{Minimum, Search, descend};
 use crate::subspace::Projection;
+
+/// Frequencies at most at which logarithms are compared.
+const LOG_RESPONSE_FREQUENCIES: usize = 160;
 
 /// On which model, and for which θ, a frequency is looked at.
 pub(super) struct At<'t, 'a> {

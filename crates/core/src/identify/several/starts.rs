@@ -15,8 +15,7 @@ use crate::identify::thinned::thinned;
 use crate::identify::unknown::Variation;
 use crate::least_squares::{Search, minimise};
 
-/// Frequencies at most at which logarithms are compared, and those that say which points of the box are compared there.
-pub(super) const LOG_RESPONSE_FREQUENCIES: usize = 160;
+/// Frequencies that say which points of the box are compared where logarithms are.
 const RANKING_FREQUENCIES: usize = 40;
 
 /// Error of the responses whose logarithms are compared: valleys are far wider.
