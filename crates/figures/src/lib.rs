@@ -45,6 +45,7 @@ mod figure;
 mod heat;
 mod layout;
 mod legend;
+mod number;
 mod png;
 mod range;
 mod scale;

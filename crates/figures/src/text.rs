@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, OutlineBuilder};
 
-use crate::svg::N;
+use crate::number::N;
 
 /// The embedded font, DejaVu Sans: it has the Greek, mathematical and superscript signs. It is part of the program; widths are a fair guess if it could not be
 /// read.

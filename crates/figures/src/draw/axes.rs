@@ -1,7 +1,8 @@
 //! Frame, grid, ticks and their labels.
 
 use crate::layout::{BORDER, ColorBar, Frame, Layout, SMALL_TEXT, TEXT, TICK};
-use crate::svg::{Anchor, N, Svg};
+use crate::number::N;
+use crate::svg::{Anchor, Svg};
 use crate::text::fitted;
 
 /// Lengths of major and minor ticks.

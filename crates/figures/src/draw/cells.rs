@@ -6,8 +6,9 @@ use super::axes;
 use crate::color::{MISSING, viridis};
 use crate::heat::{Cell, cells};
 use crate::layout::{ColorBar, Frame};
+use crate::number::N;
 use crate::scale::Map;
-use crate::svg::{N, Rect, Svg};
+use crate::svg::{Rect, Svg};
 use crate::{HeatMap, Strip};
 
 /// Neighbouring cells must meet without the hairline that blended edges leave.

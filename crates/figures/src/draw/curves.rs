@@ -1,9 +1,10 @@
 //! Lines, markers and error bars.
 
 use crate::Series;
+use crate::number::N;
 use crate::scale::Map;
 use crate::series::{Dash, Marker};
-use crate::svg::{N, Svg};
+use crate::svg::Svg;
 
 /// Width of curves.
 pub(super) const LINE: f64 = 1.7;

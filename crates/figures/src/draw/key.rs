@@ -3,7 +3,8 @@
 use super::curves;
 use crate::layout::{Frame, ROW};
 use crate::legend::{Look, SAMPLE};
-use crate::svg::{Anchor, N, Rect, Svg};
+use crate::number::N;
+use crate::svg::{Anchor, Rect, Svg};
 
 /// Opacity of shaded ranges.
 pub(super) const SHADE: f64 = 0.2;

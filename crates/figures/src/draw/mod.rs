@@ -6,8 +6,9 @@ mod curves;
 mod key;
 
 use crate::layout::{BORDER, Frame, Layout, TEXT, TITLE};
+use crate::number::N;
 use crate::scale::Map;
-use crate::svg::{Anchor, Letters, N, Rect, Svg};
+use crate::svg::{Anchor, Letters, Rect, Svg};
 use crate::text::fitted;
 use crate::{Bands, Figure, Level, Panel};
 

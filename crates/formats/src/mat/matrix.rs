@@ -5,8 +5,8 @@ use std::vec::IntoIter;
 
 use num_complex::Complex64 as c64;
 
+use super::head::Head;
 use super::stream::{Stream, Tag};
-use super::variable::Head;
 use crate::assemble::{Duplicates, Value};
 use crate::gather::Gather;
 use crate::{CoordinateMatrix, FormatError, Position};

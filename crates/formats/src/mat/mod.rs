@@ -16,6 +16,7 @@
 //! # Source
 //! The MathWorks, "MAT-File Format" (R2019a), chapter 1: Level 5 MAT-files.
 
+mod head;
 mod matrix;
 mod stream;
 mod variable;

@@ -117,3 +117,13 @@ impl<'a> File<'a> {
         Err(FormatError::line(entry.line, "a function (dataset 58)", format!("dataset {}", entry.dataset)))
     }
 }
+
+/// Reads every dataset of a file, data included. Memory is at most 16 times the file.
+///
+/// # Errors
+///
+/// As [`scan`](super::scan), or a dataset of a known number holds something else than its format says.
+pub fn read_all(bytes: &[u8]) -> Result<Vec<Record>, FormatError> {
+    let file = File::new(bytes)?;
+    (0..file.entries().len()).map(|index| file.record(index)).collect()
+}

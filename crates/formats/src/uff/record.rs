@@ -2,9 +2,6 @@
 
 use std::ops::Range;
 
-use crate::FormatError;
-
-use super::file::File;
 use super::file_header::FileHeader;
 use super::function::Function;
 use super::nodes::Node;
@@ -31,14 +28,4 @@ pub enum Record {
         /// Its bytes in the file.
         bytes: Range<usize>,
     },
-}
-
-/// Reads every dataset of a file, data included. Memory is at most 16 times the file.
-///
-/// # Errors
-///
-/// As [`scan`](super::scan), or a dataset of a known number holds something else than its format says.
-pub fn read_all(bytes: &[u8]) -> Result<Vec<Record>, FormatError> {
-    let file = File::new(bytes)?;
-    (0..file.entries().len()).map(|index| file.record(index)).collect()
 }
