@@ -127,3 +127,28 @@ impl<'a> Moves<'a> {
         self.separator
     }
 }
+
+impl Separator {
+    /// From a vertex on, the best next vertex at a time, until the sides are even.
+    pub(super) fn grown(graph: &Weighted, seed: u32) -> Self {
+        let mut side = vec![1; graph.vertices()];
+        side[seed as usize] = SEPARATOR_SIDE;
+        let mut moves = Moves::new(graph, Self::new(graph, side), 0);
+        while moves.separator.weight[0] < moves.separator.weight[1] && moves.next() {}
+        moves.separator
+    }
+
+    /// Moved to one side and to the other, the lighter first, as long as that is better. To try the other side too
+    /// before that is believed takes 6 % of an analysis, and structures cost the same to a few per mille.
+    pub(super) fn refined(mut self, graph: &Weighted) -> Self {
+        let mut to = u8::from(self.weight[1] < self.weight[0]);
+        loop {
+            let before = self.cost();
+            self = Moves::new(graph, self, to).pass();
+            if self.cost() >= before {
+                return self;
+            }
+            to = 1 - to;
+        }
+    }
+}
