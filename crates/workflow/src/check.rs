@@ -1,7 +1,7 @@
 //! What is wrong with a case's data, in words, with the key of the case file to change.
 
 use crate::error::{InputError, Place};
-use crate::job::JobError;
+use crate::job_error::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::check_identify;
 use crate::output::Words;

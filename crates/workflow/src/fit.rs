@@ -2,7 +2,7 @@
 
 use crate::error::{InputError, Place};
 use crate::figures::law_figures;
-use crate::job::JobError;
+use crate::job_error::JobError;
 use crate::load::load_bytes;
 use crate::output::{File, Misfit, check_folder, law_json, laws_text, write_result};
 use crate::reads::Reads;

@@ -4,11 +4,12 @@ use crate::check::{check_on, findings_json, others_json};
 use crate::convert::{OR_TO, ending_of};
 use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures};
+pub use crate::job_error::JobError;
 use crate::load::{Case, Check, IdentifyCase, Overrides, Purpose, load};
-use crate::memory::{MemoryError, check_full, check_identify};
+use crate::memory::{check_full, check_identify};
 use crate::modes::beside_identification;
 use crate::output::{
-    File, Words, WriteError, candidates_csv, check_file, check_folder, error_map_csv, identified_csv,
+    File, IDENTIFIED, Words, candidates_csv, check_file, check_folder, error_map_csv, identified_csv,
     impact_reasons, is_stream, measured_csv, measured_summary, measured_text, measured_uff, reference_csv,
     respond_csv, respond_uff, response_csv, summary_json, updated_uff, write_one, write_result,
 };
@@ -20,75 +21,13 @@ use crate::run::{
     respond,
 };
 use frfit::diagnostics::{Depth, Diagnosis};
-use frfit::identify::{Explained, ProblemError};
-use frfit::material::OutsideTable;
+use frfit::identify::Explained;
 use frfit::response::Work;
 use frfit::signal::{self, Measured, SignalError, estimate_frf};
 use frfit::subspace::KeptSubspace;
-use frfit_figures::PngError;
 use serde_json::{Value, json};
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-/// Why a job was not done.
-#[derive(Debug)]
-pub enum JobError {
-    /// The user's input is at fault.
-    Input(InputError),
-    /// A table of a factor does not reach a frequency of the band.
-    OutsideTable(OutsideTable),
-    /// The case has a fault that was not seen when it was loaded.
-    Problem(ProblemError),
-    /// The model does not fit into memory.
-    Memory(MemoryError),
-    /// The output folder cannot be written.
-    Write(WriteError),
-    /// A figure could not be drawn: a fault of this program.
-    Figure(PngError),
-    /// The page could not be made of the results, which are written: a fault of this program.
-    Report(InputError),
-}
-
-impl fmt::Display for JobError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input(error) => write!(f, "{error}"),
-            Self::OutsideTable(error) => write!(f, "{error}"),
-            Self::Problem(error) => write!(f, "{error}"),
-            Self::Memory(error) => write!(f, "{error}"),
-            Self::Write(error) => write!(f, "{error}"),
-            Self::Figure(error) => write!(f, "a figure could not be drawn: {error}"),
-            Self::Report(error) => {
-                write!(f, "the results are written, but no report.html could be made of them: {error}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for JobError {}
-
-macro_rules! from {
-    ($($kind:ident($error:ty)),*) => {
-        $(impl From<$error> for JobError {
-            fn from(error: $error) -> Self {
-                Self::$kind(error)
-            }
-        })*
-    };
-}
-
-from!(
-    Input(InputError),
-    OutsideTable(OutsideTable),
-    Problem(ProblemError),
-    Memory(MemoryError),
-    Write(WriteError),
-    Figure(PngError)
-);
-
-/// What the results of an identification are called in the list of their files.
-pub(crate) const IDENTIFIED: &str = "identify";
 
 /// The files of an identification, beside its figures.
 const IDENTIFIED_FILES: [&str; 11] = [

@@ -32,6 +32,7 @@ pub mod figures;
 pub mod fit;
 pub mod inspect;
 pub mod job;
+mod job_error;
 pub mod load;
 pub mod memory;
 pub mod modes;

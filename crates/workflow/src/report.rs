@@ -1,9 +1,8 @@
 //! The results of an identification as one HTML page, from memory or from the folder that has them.
 
 use crate::error::{InputError, Place};
-use crate::job::IDENTIFIED;
 use crate::load::load_bytes;
-use crate::output::{File, read_result};
+use crate::output::{File, IDENTIFIED, read_result};
 use crate::reads::Reads;
 use frfit_formats::FormatError;
 use std::path::Path;

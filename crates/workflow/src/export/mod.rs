@@ -7,12 +7,10 @@ mod nastran;
 mod options;
 mod plain;
 mod solid;
-mod unknown;
 
 pub use crate::units::UnitSystem;
 pub use modulus::{Modulus, modulus};
 pub use options::{ExportOptions, Target, UnknownWord};
-pub(crate) use unknown::table_of_unknown;
 
 use crate::error::{InputError, Place};
 use crate::reads::Reads;

@@ -1,10 +1,9 @@
 //! The modulus that is written: of a table, or of a law at the frequencies of a table.
 
 use super::options::ExportOptions;
-use super::unknown::table_of_unknown;
 use crate::case::law_of_snippet;
 use crate::error::{InputError, Place};
-use crate::load::load_bytes;
+use crate::load::{load_bytes, table_of_unknown};
 use crate::reads::Reads;
 use crate::units::{FactorUnit, TableUnits, UnitSystem};
 use frfit::c64;

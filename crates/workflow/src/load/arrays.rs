@@ -5,7 +5,7 @@ use super::files::NamedFile;
 use super::frf::Frf;
 use super::identify::{Given, IdentifyCase, put_together};
 use super::loaded::Case;
-use super::measurement::{Curve, Decay, Measurement, SensorInfo, common_decay};
+use super::measurement::{Curve, Decay, Measurement, SensorInfo, common_decay, measurement_argument};
 use super::options::{chosen, options};
 use super::sensitivities::SensitivitiesCase;
 use super::unknowns::{known_have_std, unknowns};
@@ -289,11 +289,6 @@ fn argument(name: &str) -> Place {
 /// A row by its index.
 fn row(row: usize) -> String {
     format!("row {row}")
-}
-
-/// An element of the measurements' sequence.
-pub(super) fn measurement_argument(m: usize) -> String {
-    format!("measurements[{m}]")
 }
 
 fn inside(place: &Place, row: usize, dim: usize) -> Result<(), InputError> {

@@ -1,9 +1,9 @@
 //! A case with all of its files.
 
-use super::arrays::measurement_argument;
 use super::files::InputFile;
 use super::identify::IdentifyCase;
 use super::measurement::SensorInfo;
+use super::measurement::measurement_argument;
 use super::modes::ModesCase;
 use super::sensitivities::SensitivitiesCase;
 use crate::reads::Reads;

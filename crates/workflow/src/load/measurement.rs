@@ -170,3 +170,8 @@ fn curve(
     let (scale, delay_s) = (known(&entry.scale, 1.0), known(&entry.delay_s, 0.0));
     Ok(Curve { frf, scale, delay_s, averages, file: file.closed() })
 }
+
+/// An element of the measurements' sequence.
+pub(super) fn measurement_argument(m: usize) -> String {
+    format!("measurements[{m}]")
+}

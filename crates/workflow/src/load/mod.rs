@@ -24,6 +24,7 @@ mod sensitivities;
 mod shared;
 mod solver;
 mod structure;
+mod table_of_unknown;
 mod uff;
 mod unknowns;
 
@@ -47,6 +48,7 @@ pub use modes::{MeasuredBand, ModesCase};
 pub use overrides::Overrides;
 pub use sensitivities::SensitivitiesCase;
 pub(crate) use shared::SharedModels;
+pub(crate) use table_of_unknown::table_of_unknown;
 pub(crate) use uff::STD_LABEL;
 pub use uff::read_frfs;
 

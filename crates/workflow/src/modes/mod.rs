@@ -19,7 +19,7 @@ pub use run::{ModesOptions, ModesRun, modes};
 
 use crate::error::{InputError, Place};
 use crate::figures::modes_figures;
-use crate::job::JobError;
+use crate::job_error::JobError;
 use crate::load::{Case, IdentifyCase, ModesCase, Overrides, Purpose, load};
 use crate::memory::check_subspace;
 use crate::output::{File, Words, check_folder, write_result};

@@ -1,5 +1,6 @@
 //! Files that are written whole or not at all, and never over a file that was read.
 
+use super::file::File;
 use super::manifest::manifest;
 use super::staging::Staging;
 use super::target::{Target, folder_of, is_standard_output, write_standard_output, write_through};
@@ -8,22 +9,6 @@ use crate::reads::Reads;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-
-/// A file to be written.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct File {
-    /// Path relative to the output folder.
-    pub path: PathBuf,
-    /// Contents.
-    pub bytes: Vec<u8>,
-}
-
-impl File {
-    /// A file at a relative path.
-    pub fn new(path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> Self {
-        Self { path: path.into(), bytes: bytes.into() }
-    }
-}
 
 /// A file that could not be written.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! The list of the files of a result, by which a reader knows whether they are all of one run.
 
-use super::files::File;
+use super::file::File;
 use crate::error::{InputError, Place};
 use crate::load::load_bytes;
 use crate::reads::Reads;
@@ -9,6 +9,9 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// What the results of an identification are called in the list of their files.
+pub(crate) const IDENTIFIED: &str = "identify";
 
 /// Of the files that are wrong so many are named.
 const NAMED: usize = 3;

@@ -4,6 +4,7 @@ mod assumptions;
 mod candidates;
 mod columns;
 mod error_map;
+mod file;
 mod files;
 mod frf;
 mod identifiability;
@@ -23,14 +24,13 @@ pub use assumptions::contradicted;
 pub use candidates::candidates_csv;
 pub(crate) use candidates::{Solution, solutions};
 pub use error_map::error_map_csv;
-pub use files::{
-    File, WriteError, check_file, check_folder, write_all, write_one, write_result, write_unedited,
-};
+pub use file::File;
+pub use files::{WriteError, check_file, check_folder, write_all, write_one, write_result, write_unedited};
 pub use frf::{respond_uff, updated_uff};
 pub use identifiability::{coordinate, not_identifiable};
 pub use identified::identified_csv;
 pub use laws::{Misfit, law_json, laws_json, laws_text, smooth_json};
-pub(crate) use manifest::{hexadecimal, read_result, sha256};
+pub(crate) use manifest::{IDENTIFIED, hexadecimal, read_result, sha256};
 pub use measured::{impact_reasons, measured_csv, measured_summary, measured_text, measured_uff};
 pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv};

@@ -22,7 +22,7 @@ pub use ranking::{Largest, Ranking};
 pub use run::{NextSensor, NoiseFrom, Place, Sensitivity, SensitivityOptions, SensitivityRun, sensitivities};
 
 use crate::figures::sensitivity_figure;
-use crate::job::JobError;
+use crate::job_error::JobError;
 use crate::load::{Case, Overrides, Purpose, load};
 use crate::memory::check_subspace;
 use crate::output::{File, Words, check_folder, write_result};

@@ -2,7 +2,7 @@
 
 use super::Candidates;
 use super::ranking::{Ranking, ranking};
-use crate::job::JobError;
+use crate::job_error::JobError;
 use crate::load::Case;
 use crate::run::in_parallel;
 use frfit::c64;
