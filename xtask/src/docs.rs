@@ -3,14 +3,10 @@
 //! Formulas are written `$…$` and `$$…$$`, in doc comments and in docs/site. Node typesets them with KaTeX in the pages
 //! themselves, so that a page needs no script: only KaTeX's style sheet and fonts, which are copied beside it.
 
+use crate::python;
 use crate::site;
-use crate::step::{Step, run, sum_up, target, works, workspace};
-use crate::test::documentation;
-use std::path::Path;
-use std::process::Command;
-
-/// The version that the pages are known to look right with.
-const KATEX: &str = "katex@0.16.22";
+use crate::step::{Step, cargo, run, sum_up, target};
+use crate::typeset::typeset;
 
 /// Builds target/doc and target/site.
 pub(crate) fn build() -> bool {
@@ -21,30 +17,18 @@ pub(crate) fn build() -> bool {
     sum_up(&steps)
 }
 
-/// Typesets the pages of a folder; where KaTeX cannot be had, the formulas stay as they are written, with a word.
-pub(crate) fn typeset(pages: &Path) -> Vec<Step> {
-    let folder = target().join(KATEX);
-    let package = folder.join("node_modules/katex");
-    if !package.exists() {
-        println!("── npm install {KATEX}");
-        let mut install = Command::new("npm");
-        install.args(["install", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix"]);
-        works(install.arg(&folder).arg(KATEX));
-    }
-    if !package.exists() || !works(Command::new("node").arg("--version")) {
-        println!(
-            "── formulas: SKIPPED, {KATEX} cannot be installed, or node is missing; they stay as they are written"
-        );
-        return Vec::new();
-    }
-    let mut typeset = Command::new("node");
-    typeset.arg(workspace().join("xtask/typeset.cjs")).arg(package).arg(pages);
-    vec![run("formulas", typeset.current_dir(workspace()))]
+/// The documentation, in which a broken link or a missing comment is an error.
+///
+/// Only rustdoc sees the flag: nothing that other steps have built is built again.
+pub(crate) fn documentation() -> Step {
+    let mut command = cargo(["doc", "--workspace", "--no-deps"]);
+    run("documentation", python::seen_by(&mut command).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::step::workspace;
+    use std::path::Path;
 
     /// All files below a folder.
     fn files(folder: &Path, found: &mut Vec<String>) {

@@ -12,9 +12,11 @@ mod site;
 mod slowest;
 mod step;
 mod test;
+mod tier;
+mod typeset;
 
 use std::process::ExitCode;
-use test::Tier;
+use tier::Tier;
 
 const USAGE: &str = "\
 cargo xtask test                 the daily tier: formatting, lints, tests, doc tests, documentation, the Python package

@@ -1,7 +1,7 @@
 //! The Python package: its wheel, installed into an environment of its own, with its tests, doctests and types.
 
 use crate::step::{Step, cargo, run, run_beside, target, works, workspace};
-use crate::test::{LONG, Tier};
+use crate::tier::{LONG, Tier};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;

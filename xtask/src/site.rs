@@ -1,8 +1,8 @@
 //! The documentation site: docs/site, built by mdBook into target/site, its formulas typeset, its links followed.
 
-use crate::docs::typeset;
 use crate::links;
 use crate::step::{Step, cargo, run, target, workspace};
+use crate::typeset::typeset;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,22 +1,15 @@
 //! Everything that must hold before a change is kept, in two tiers: daily, and long.
 
 use crate::browser::browser;
+use crate::docs::documentation;
 use crate::outside::{self, Outside};
 use crate::prose;
 use crate::python;
 use crate::site;
 use crate::slowest;
 use crate::step::{Step, cargo, run, sum_up, works};
+use crate::tier::{LONG, Tier};
 use std::thread;
-
-/// How much of the tests is run.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Tier {
-    /// What a change has to pass: minutes.
-    Daily,
-    /// Statistical tests with all their seeds and cases, the site, and the report in a browser too.
-    Long,
-}
 
 /// Prose, formatting, lints, tests, doc tests, documentation, the Python package; of the long tier the site and the report in
 /// a browser too. Every step runs, even after one that failed.
@@ -87,20 +80,9 @@ fn adapters() -> Step {
     run("adapters", python::seen_by(&mut command))
 }
 
-/// The documentation, in which a broken link or a missing comment is an error.
-///
-/// Only rustdoc sees the flag: nothing that other steps have built is built again.
-pub(crate) fn documentation() -> Step {
-    let mut command = cargo(["doc", "--workspace", "--no-deps"]);
-    run("documentation", python::seen_by(&mut command).env("RUSTDOCFLAGS", "-D warnings"))
-}
-
 /// Where property tests begin, unless `PROPTEST_RNG_SEED` says otherwise: the same cases for the same code, so that
 /// a test that fails was broken by the change. Other cases are tried by naming another seed and more `PROPTEST_CASES`.
 const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
-
-/// Set for the tests of the long tier.
-pub(crate) const LONG: &str = "FRFIT_LONG";
 
 /// The doc tests, which cargo-nextest does not run.
 fn doc_tests() -> Step {

@@ -6,6 +6,7 @@ use super::fault::{Change, Class, Unknowns};
 use super::natural::{Mode, errors, median, modes, size};
 use super::realised::{Realised, UNKNOWN};
 use super::structure::{Kind, Structure};
+use super::way::Way;
 use cpu_time::ThreadTime;
 use frfit::c64;
 use frfit::for_each::sequential;
@@ -16,59 +17,6 @@ use frfit::identify::{
 use frfit::laws::LawKind;
 use frfit::material::{Law, loss_factor};
 use frfit::model::{DynamicStiffness, Experiment, Sensor};
-use std::fmt;
-use std::str::FromStr;
-
-/// How the unknown is said to vary.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// A value of its own at every frequency.
-    PerFrequency,
-    /// A smooth function of frequency.
-    Smooth,
-    /// The law that the truth is of.
-    Law,
-    /// All stiffnesses at once: a core has a value of its own at every frequency, the others are constant.
-    Several,
-    /// The same with a smooth core.
-    SeveralSmooth,
-}
-
-impl Way {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::PerFrequency, Self::Smooth, Self::Law, Self::Several, Self::SeveralSmooth];
-
-    /// Those with one unknown.
-    pub const OF_ONE: [Self; 3] = [Self::PerFrequency, Self::Smooth, Self::Law];
-
-    /// The word that arguments and tables use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PerFrequency => "per-frequency",
-            Self::Smooth => "smooth",
-            Self::Law => "law",
-            Self::Several => "several",
-            Self::SeveralSmooth => "several-smooth",
-        }
-    }
-}
-
-impl fmt::Display for Way {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Way {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let names = Self::ALL.map(Self::name).join(", ");
-        let known = Self::ALL.into_iter().find(|way| way.name() == text);
-        known.ok_or_else(|| format!("way: expected one of {names}, found {text:?}"))
-    }
-}
 
 /// A case, measured.
 #[derive(Debug)]

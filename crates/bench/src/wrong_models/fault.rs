@@ -1,7 +1,7 @@
 //! The classes of wrong models, and what is different in truth.
 
-use super::case::Way;
 use super::structure::Kind;
+use super::way::Way;
 use frfit::c64;
 use std::fmt;
 use std::str::FromStr;

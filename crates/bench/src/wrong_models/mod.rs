@@ -21,14 +21,16 @@ pub mod realised;
 pub mod report;
 pub mod score;
 pub mod structure;
+pub mod way;
 
 /// Why a case could not be made: a fault of the benchmark, never a result.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-use case::{Case, Setting, Way};
+use case::{Case, Setting};
 use fault::Unknowns;
 use frfit::identify::Options;
 use report::{Run, Tried};
+use way::Way;
 
 /// Draws a case of a seed and identifies it in some ways.
 ///

@@ -1,10 +1,11 @@
 //! Results as Markdown, as CSV, and line by line.
 
-use super::case::{Case, Way};
+use super::case::Case;
 use super::fault::Class;
 use super::natural::median;
 use super::score::{Judged, Part, Summary};
 use super::structure::Kind;
+use super::way::Way;
 use frfit::identify::{Explained, Identification, ModelErrorsFound, Status};
 
 /// What is kept of a case.

@@ -13,9 +13,10 @@
 use frfit::identify::Options;
 use frfit_bench::cases::{Cases, number};
 use frfit_bench::machine;
-use frfit_bench::wrong_models::case::{Meshes, Setting, Way};
+use frfit_bench::wrong_models::case::{Meshes, Setting};
 use frfit_bench::wrong_models::fault::{Class, Unknowns};
 use frfit_bench::wrong_models::report::{LEGEND, csv, described, errors, lines, markdown};
+use frfit_bench::wrong_models::way::Way;
 use frfit_bench::wrong_models::{Failure, tried};
 
 /// What was asked for.
