@@ -138,6 +138,15 @@ def long_work():
     return model, np.linspace(0.01, 0.2, 20000)
 
 
+@pytest.fixture
+def interruptible():
+    """What a shell starts in the background ignores Ctrl-C, and so would these tests."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_is_answered_within_a_second_and_the_model_stays_usable():
     model, f = long_work()
     before = frfit.respond(model, f[:2], load=0, sensors=[5])
