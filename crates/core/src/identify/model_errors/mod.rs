@@ -26,6 +26,7 @@ mod mesh_scatter;
 mod paired;
 mod scatter;
 mod search;
+mod small_errors;
 mod split;
 mod tuned;
 
@@ -56,6 +57,7 @@ use std::f64::consts::TAU;
 use frfit_linalg::dense::Cholesky;
 use mesh::BetweenMeshes;
 use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
+use small_errors::SmallErrors;
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -232,6 +234,11 @@ impl KnownSizes {
             least_of_modes: least(is_unknown && is_curve_beside_others, LEAST_OF_MODES_STD),
         }
     }
+
+    /// Where errors are so much smaller than usual.
+    fn smaller(self, part: f64) -> Self {
+        Self { least_of_mesh: part * self.least_of_mesh, least_of_modes: part * self.least_of_modes, ..self }
+    }
 }
 
 impl Sizes {
@@ -347,7 +354,10 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return right_model();
     }
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
-    if !sized && is_noise() && data.promise(&whole, &right, &given)? <= -RIGHT_MODEL_NATS {
+    let small = if sized { None } else { Some(SmallErrors::new(data, &whole, &right, &given)?) };
+    let contradicted = small.map(|small| small.small_nats).filter(|nats| *nats > CONTRADICTED_NATS);
+    let is_right = small.is_some_and(|small| small.usual_nats <= -RIGHT_MODEL_NATS);
+    if is_right && contradicted.is_none() && is_noise() {
         return right_model();
     }
     let coarse = Fitting { free_nodes: false, ..search.fitting(&rough.0, &rough.1, &search.some) };
@@ -435,6 +445,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
+    // The search has found what it assumes the least errors to be; smaller ones may explain the band better.
+    let best = contradicted.map_or(best, |nats| best.min(right.evidence - 2.0 * nats));
     let evidence = 0.5 * (least - best);
     if !sized && evidence <= -RIGHT_MODEL_NATS {
         // No material scatters from line to line. Where only that explains the band, and not all of it, it is another model.
@@ -690,9 +702,6 @@ const NEIGHBOURHOOD_POINTS: usize = 24;
 const NEIGHBOURHOOD_TOL: f64 = 1e-6;
 const ROUGH_NEIGHBOURHOOD_TOL: f64 = 1e-4;
 
-/// Of the sizes before the data, at which small errors are tried.
-const TRIED_SIZE_PARTS: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
-
 /// The residual is noise up to this number of standard deviations of χ².
 const NOISE_CHI_SQUARED_STD: f64 = 3.0;
 
@@ -710,6 +719,9 @@ fn chi_squared<'s>(squares: &[Vec<f64>], sigma: impl IntoIterator<Item = &'s Vec
 /// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
 /// the data cannot decide, they are in the bars.
 const RIGHT_MODEL_NATS: f64 = 5.0;
+
+/// It is none where errors of any size, however small, explain it better by more than this. Of right models none of 40 has more than 1.8.
+const CONTRADICTED_NATS: f64 = 2.5;
 
 /// Starts with more mismatch over the least of all are far from the answer.
 const MAX_MISMATCH_OVER_LEAST: f64 = 1.2;
@@ -862,48 +874,6 @@ impl<'a> Measured<'_, 'a> {
                 right.level <= least.max(usual)
             }
         }
-    }
-
-    /// Nats by which errors of some size explain the band better, by the slopes where a right model explains it: a test of small errors
-    /// that costs no search.
-    fn promise(&self, whole: &Fitting<'_, '_>, right: &Explained, given: &[FactorPrior]) -> Option<f64> {
-        let n = whole.count();
-        let m = whole.curves.count();
-        let of_right = whole.coordinates_of(given);
-        let mut place = whole.start(&right.found.place[..m]);
-        of_right.iter().zip(&right.found.place).for_each(|(&i, value)| place[i] = *value);
-        let normal = whole.normal(&place, &self.sigma_at(whole.lines, right.level, 0.0))?;
-        let gain = |part: f64| -> Option<f64> {
-            let usual = Sizes::prior(whole.known);
-            let sizes = Sizes {
-                frequency: part * usual.frequency,
-                loss_factor: part * usual.loss_factor,
-                common: part * usual.common,
-                common_loss: part * usual.common_loss,
-                shape: part * usual.shape,
-                calibration: part * usual.calibration,
-                bend: right.sizes.bend,
-            };
-            let precision = whole.precision(&sizes);
-            let sum = normal.with_prior(&precision);
-            let off = |j: usize| place[j] - whole.expected(j);
-            let pull = |i: usize| -> f64 { of_right.iter().map(|&j| precision[i * n + j] * off(j)).sum() };
-            let slope: Vec<f64> = (0..n).map(|i| normal.gradient[i] - pull(i)).collect();
-            let factor = Cholesky::new(n, &sum).ok()?;
-            let mut step = slope.clone();
-            factor.solve(&mut step);
-            let gained: f64 = slope.iter().zip(&step).map(|(g, s)| g * s).sum();
-            let all: Vec<usize> = (0..n).collect();
-            let volume = |matrix: &[f64], of: &[usize]| -> Option<f64> {
-                let row = |&i: &usize| of.iter().map(move |j| matrix[i * n + j]);
-                let block: Vec<f64> = of.iter().flat_map(row).collect();
-                Some(Cholesky::new(of.len(), &block).ok()?.log_determinant())
-            };
-            let of_errors = factor.log_determinant() - volume(&precision, &all)?;
-            let of_curves = volume(&sum, &of_right)? - volume(&precision, &of_right)?;
-            Some(0.5 * (gained - of_errors + of_curves))
-        };
-        TRIED_SIZE_PARTS.into_iter().filter_map(gain).reduce(f64::max)
     }
 
     /// The least squares with the noise approached from above, and the sizes of largest evidence.

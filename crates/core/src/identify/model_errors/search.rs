@@ -82,7 +82,7 @@ impl Kinds {
 }
 
 /// The standard deviation of an error that is not searched: practically zero.
-const NEGLIGIBLE_STD: f64 = 1e-7;
+pub(super) const NEGLIGIBLE_STD: f64 = 1e-7;
 
 /// What is known of the error of a known factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -349,6 +349,13 @@ impl Fitting<'_, '_> {
     /// The square of a natural frequency over the highest frequency of the band.
     pub(super) fn over_highest_squared(&self, mode: usize) -> f64 {
         (self.modes.omega_rad_s[mode] / self.highest_rad_s).powi(2)
+    }
+
+    /// All coordinates but the curves and the δ_i, own and common.
+    pub(super) fn beside_frequencies(&self) -> impl Iterator<Item = usize> {
+        let own = self.own().filter(|&i| self.is_frequency(i));
+        let of_frequency: Vec<usize> = self.in_common(true).chain(own).collect();
+        (self.curves.count()..self.count()).filter(move |i| !of_frequency.contains(i))
     }
 
     /// Own parts of δ and ε.
