@@ -460,6 +460,31 @@ fn a_mesh_that_is_almost_right_is_no_right_model() {
     assert!(as_it_is > 20.0 && estimated < 2.0, "{as_it_is} {estimated}");
 }
 
+/// Springs that stand on ground of the beam's material, which gives a fifteenth of what they do, under a mesh that is up to 1 % off. What is found of them is spring and ground, with
+/// the damping of both: the bar of their loss factor holds what gives beside them.
+#[test]
+fn the_loss_factor_of_a_spring_holds_what_gives_beside_it() {
+    let frequency_hz = linear_hz(5.0, 560.0, 120);
+    let (beam, spring) = (c64::new(7e10, 4.2e8), c64::new(2e3, 6e1));
+    let ground = 15.0 * spring.re * beam / beam.re;
+    let truth = [beam, spring * ground / (spring + ground), c64::new(2700.0, 0.0)];
+    let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
+    let (model, experiment) = sprung(8, [0.9 * truth[0], 0.9 * truth[1], truth[2]], &[0.8, 0.4, 0.2]);
+    let unknowns = ["beam", "springs"]
+        .map(|name| Unknown { varies: Variation::Constant, ..Unknown::factor_of(&model, &[name]).unwrap() });
+    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
+    let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let found = identify(&problem, &Options::default(), context).unwrap();
+    for (constant, truth) in found.constants.iter().zip([beam, spring]) {
+        assert_eq!(constant.status, Status::Ok, "{:?}", found.fit);
+        for (number, truth) in constant.numbers.iter().zip([truth.re, loss_factor(truth)]) {
+            let std = number.std.unwrap();
+            assert!((number.value - truth).abs() < 3.0 * std && std < 0.1 * truth, "{number:?} {truth}");
+        }
+    }
+}
+
 /// Factors of the beam, of the springs under its ends and of its mass, and where it is measured.
 fn sprung(elements: usize, factors: [c64; 3], sensors: &[f64]) -> (DynamicStiffness, Experiment) {
     let beam =

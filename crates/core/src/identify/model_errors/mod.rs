@@ -18,9 +18,11 @@
 
 mod causality;
 mod curve;
+
 mod estimated;
 mod found;
 mod leverage;
+mod local_stiffness;
 mod mesh;
 mod mesh_scatter;
 mod paired;
@@ -55,6 +57,7 @@ pub(super) use split::Split;
 use std::f64::consts::TAU;
 
 use frfit_linalg::dense::Cholesky;
+use local_stiffness::add_local_compliance;
 use mesh::BetweenMeshes;
 use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
 use small_errors::SmallErrors;
@@ -1057,7 +1060,10 @@ impl<'a> Measured<'_, 'a> {
             let row = |&(i, x): &(usize, f64)| parts[b].iter().map(|&(j, y)| x * y * of(i, j)).sum::<f64>();
             parts[a].iter().map(row).sum::<f64>()
         };
-        let covariance = (0..kept * kept).map(|k| entry(k % kept, k / kept)).collect();
+        let mut covariance: Vec<f64> = (0..kept * kept).map(|k| entry(k % kept, k / kept)).collect();
+        if modes > 0 {
+            add_local_compliance(&mut covariance, kept, fitting, &found.place[..theta])?;
+        }
         Some(Estimated {
             modes: fitting.modes.clone(),
             errors,
