@@ -444,8 +444,7 @@ fn a_mesh_that_is_almost_right_is_no_right_model() {
     let truth = [c64::new(7e10, 7e8), c64::new(2e3, 4.0), c64::new(2700.0, 0.0)];
     let (u, _) = sprung_measured((48, truth), [1.0; 3], &frequency_hz);
     let (model, experiment) = sprung(16, [0.9 * truth[0], 0.9 * truth[1], truth[2]], &[0.8, 0.4, 0.2]);
-    let unknowns = ["beam", "springs"]
-        .map(|name| Unknown { varies: Variation::Constant, ..Unknown::factor_of(&model, &[name]).unwrap() });
+    let unknowns = sprung_unknowns(&model).map(|unknown| Unknown { real: false, ..unknown });
     let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
     let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
     let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
@@ -470,8 +469,7 @@ fn the_loss_factor_of_a_spring_holds_what_gives_beside_it() {
     let truth = [beam, spring * ground / (spring + ground), c64::new(2700.0, 0.0)];
     let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
     let (model, experiment) = sprung(8, [0.9 * truth[0], 0.9 * truth[1], truth[2]], &[0.8, 0.4, 0.2]);
-    let unknowns = ["beam", "springs"]
-        .map(|name| Unknown { varies: Variation::Constant, ..Unknown::factor_of(&model, &[name]).unwrap() });
+    let unknowns = sprung_unknowns(&model).map(|unknown| Unknown { real: false, ..unknown });
     let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
     let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
     let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
