@@ -448,7 +448,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
     let least = scattered.map_or(right.evidence, |scattered| scattered.min(right.evidence));
-    // The search has found what it assumes the least errors to be; smaller ones may explain the band better.
+    // The search assumes least sizes of errors. Smaller ones may explain the band better.
     let best = contradicted.map_or(best, |nats| best.min(right.evidence - 2.0 * nats));
     let evidence = 0.5 * (least - best);
     if !sized && evidence <= -RIGHT_MODEL_NATS {
