@@ -413,16 +413,10 @@ fn constants_of_narrow_modes_leave_the_noise_that_the_responses_show() {
     let truth = [c64::new(7e10, 5.6e7), c64::new(2e3, 4.0), c64::new(2700.0, 0.0)];
     for nominal in of_tier(&[0.75][..], &[0.6, 0.75, 0.9, 1.3]) {
         let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
-        let (model, experiment) =
-            sprung(8, [*nominal * truth[0], nominal * truth[1], truth[2]], &[0.8, 0.4, 0.2]);
-        let unknowns = ["beam", "springs"].map(|name| Unknown {
-            varies: Variation::law(LawKind::Constant),
-            ..Unknown::factor_of(&model, &[name]).unwrap()
-        });
-        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
-        let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
-        let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
-        let found = identify(&problem, &Options::default(), context).unwrap();
+        let nominal_factors = [*nominal * truth[0], nominal * truth[1], truth[2]];
+        let varies = Variation::law(LawKind::Constant);
+        let found =
+            sprung_identified((8, nominal_factors), varies, (&frequency_hz, &u), ModelErrors::Estimated);
         // Noise of 1 % of each response, for real and imaginary part together; χ² of some hundred numbers is good to some per cent.
         let level = found.noise.level.unwrap();
         assert!((level / (0.01 / 2f64.sqrt()) - 1.0).abs() < 0.1, "{nominal}: {level}");
@@ -443,14 +437,10 @@ fn a_mesh_that_is_almost_right_is_no_right_model() {
     let frequency_hz = linear_hz(5.0, 560.0, 120);
     let truth = [c64::new(7e10, 7e8), c64::new(2e3, 4.0), c64::new(2700.0, 0.0)];
     let (u, _) = sprung_measured((48, truth), [1.0; 3], &frequency_hz);
-    let (model, experiment) = sprung(16, [0.9 * truth[0], 0.9 * truth[1], truth[2]], &[0.8, 0.4, 0.2]);
-    let unknowns = sprung_unknowns(&model).map(|unknown| Unknown { real: false, ..unknown });
-    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
-    let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
-    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    let nominal = [0.9 * truth[0], 0.9 * truth[1], truth[2]];
     let off = |model_errors: ModelErrors| {
-        let options = Options::default().with_model_errors(model_errors);
-        let found = identify(&problem, &options, context).unwrap();
+        let measured = (&frequency_hz[..], &u[..]);
+        let found = sprung_identified((16, nominal), Variation::Constant, measured, model_errors);
         assert!(found.constants.iter().all(|value| value.status == Status::Ok), "{:?}", found.fit);
         let storage = &found.constants[0].numbers[0];
         (storage.value - truth[0].re).abs() / storage.std.unwrap()
@@ -468,12 +458,9 @@ fn the_loss_factor_of_a_spring_holds_what_gives_beside_it() {
     let ground = 15.0 * spring.re * beam / beam.re;
     let truth = [beam, spring * ground / (spring + ground), c64::new(2700.0, 0.0)];
     let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
-    let (model, experiment) = sprung(8, [0.9 * truth[0], 0.9 * truth[1], truth[2]], &[0.8, 0.4, 0.2]);
-    let unknowns = sprung_unknowns(&model).map(|unknown| Unknown { real: false, ..unknown });
-    let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise: Noise::Unknown };
-    let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
-    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
-    let found = identify(&problem, &Options::default(), context).unwrap();
+    let nominal = [0.9 * truth[0], 0.9 * truth[1], truth[2]];
+    let measured = (&frequency_hz[..], &u[..]);
+    let found = sprung_identified((8, nominal), Variation::Constant, measured, ModelErrors::Estimated);
     for (constant, truth) in found.constants.iter().zip([beam, spring]) {
         assert_eq!(constant.status, Status::Ok, "{:?}", found.fit);
         for (number, truth) in constant.numbers.iter().zip([truth.re, loss_factor(truth)]) {
@@ -507,6 +494,22 @@ fn sprung_unknowns(model: &DynamicStiffness) -> [Unknown; 2] {
         real: name == "springs",
         ..Unknown::factor_of(model, &[name]).unwrap()
     })
+}
+
+/// Damped beam and springs, from nominal factors and responses whose noise nobody knows.
+fn sprung_identified(
+    (elements, nominal): (usize, [c64; 3]),
+    varies: Variation,
+    (frequency_hz, receptance): (&[f64], &[Vec<c64>]),
+    model_errors: ModelErrors,
+) -> Identification {
+    let (model, experiment) = sprung(elements, nominal, &[0.8, 0.4, 0.2]);
+    let unknowns =
+        sprung_unknowns(&model).map(|unknown| Unknown { varies: varies.clone(), real: false, ..unknown });
+    let frfs = Frfs { frequency_hz, receptance, noise: Noise::Unknown };
+    let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
+    let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+    identify(&problem, &Options::default().with_model_errors(model_errors), context).unwrap()
 }
 
 /// Responses of a beam on springs with noise of 1 %, each sensor's multiplied by a factor, and the standard deviations of the noise.

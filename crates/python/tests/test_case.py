@@ -140,7 +140,7 @@ def long_work():
 
 @pytest.fixture
 def interruptible():
-    """What a shell starts in the background ignores Ctrl-C, and so would these tests."""
+    """Ctrl-C interrupts, also where a shell started the tests in the background and so ignores it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

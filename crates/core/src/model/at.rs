@@ -123,6 +123,11 @@ impl DynamicStiffness {
 }
 
 impl ModelAt<'_> {
+    /// Whether an unknown enters a term.
+    pub(crate) fn is_unknown(&self, term: usize) -> bool {
+        self.parameters.iter().any(|parameter| parameter.enters(term))
+    }
+
     /// The entries of D(c) on the model's pattern; `corrections[j]` is c_j.
     ///
     /// # Panics

@@ -173,7 +173,7 @@ impl Projection {
         let shift = PENCIL_SHIFT_RATIO * highest_rad_s * highest_rad_s;
         let of_stiffness = factors(Role::Stiffness);
         let stiffness = self.real_sum(&of_stiffness);
-        let is_unknown = |g: usize| at.parameters.iter().any(|one| one.enters(self.parts.term(g)));
+        let is_unknown = |g: usize| at.is_unknown(self.parts.term(g));
         let is_there = |wanted: &bool| of_stiffness.iter().any(|(g, _)| is_unknown(*g) == *wanted);
         let groups: Vec<bool> = [false, true].into_iter().filter(is_there).collect();
         let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k + shift * m).collect();

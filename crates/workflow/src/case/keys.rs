@@ -61,16 +61,18 @@ pub(super) static SECTIONS: LazyLock<Vec<&'static Section>> = LazyLock::new(|| {
     before.into_iter().chain(LAWS.iter().map(|(_, section)| section)).chain(after).collect()
 });
 
+/// The kinds of laws that have a section.
+fn law_kinds() -> impl Iterator<Item = LawKind> {
+    LawKind::families().filter(|kind| *kind != LawKind::Constant)
+}
+
 /// The laws of a factor over frequency, each with its section, made of its parameters.
-pub(super) static LAWS: LazyLock<Vec<(LawKind, Section)>> = LazyLock::new(|| {
-    let laws = LawKind::families().filter(|kind| *kind != LawKind::Constant);
-    laws.map(|kind| (kind, section_of(kind))).collect()
-});
+pub(super) static LAWS: LazyLock<Vec<(LawKind, Section)>> =
+    LazyLock::new(|| law_kinds().map(|kind| (kind, section_of(kind))).collect());
 
 /// The words of these laws: `"fractional", "zener" or "maxwell"`.
 pub(super) fn law_words() -> String {
-    let words = LawKind::families().filter(|kind| *kind != LawKind::Constant);
-    let words: Vec<String> = words.map(|kind| format!("{:?}", kind.word())).collect();
+    let words: Vec<String> = law_kinds().map(|kind| format!("{:?}", kind.word())).collect();
     let (last, others) = words.split_last().expect("there are laws");
     format!("{} or {last}", others.join(", "))
 }

@@ -1,10 +1,11 @@
-//! What gives beside an unknown spring or joint.
+//! The compliance of the structure around an unknown spring or joint.
 //!
-//! A spring acts at a few points. Around them the structure gives by a part x of what the spring does, and a beam or a plate in place of a solid, or a coarse mesh, does not have
-//! that. What is found of the spring is both, $\ln E_j - x \\, (1 + i (\eta_k - \eta_j))$ with the loss factor η_k of what is around. The error of |E_j| is in its bar, since a
-//! natural frequency shows it. That of the loss factor is in none: errors δ_i of natural frequencies keep their damping.
+//! A spring acts at a few points. The structure around them has a compliance that is a part x of the spring's. A beam or a plate in place of a solid, or a coarse mesh, lacks
+//! it. The spring that is found has both, $\ln E_j - x \\, (1 + i (\eta_k - \eta_j))$ with the loss factor η_k of what is around. The error of |E_j| is in its bar, since
+//! natural frequencies show it. That of the loss factor is in none: errors δ_i of natural frequencies keep their damping.
 
 use super::curve::Curves;
+use super::middle;
 use super::search::Fitting;
 use crate::c64;
 use crate::material::loss_factor;
@@ -25,7 +26,7 @@ pub(super) fn add_local_compliance(
     fitting: &Fitting<'_, '_>,
     theta: &[f64],
 ) -> Option<()> {
-    let line = fitting.lines[fitting.lines.len() / 2];
+    let line = middle(fitting.lines);
     let omega = fitting.omegas[line];
     let (values, slopes) = fitting.curves.values(theta, line, omega)?;
     let at = (fitting.point)(line, &values)?.at;
@@ -33,13 +34,10 @@ pub(super) fn add_local_compliance(
         (0..values.len()).filter(|&j| terms_of(&at, j).all(|term| term.role == Role::Stiffness)).collect();
     let (local, around): (Vec<usize>, Vec<usize>) =
         stiffnesses.into_iter().partition(|&j| terms_of(&at, j).all(|term| is_local(&term.matrix)));
-    let is_known = |term: usize| !at.parameters.iter().any(|one| one.enters(term));
-    let known = at
-        .model
-        .terms()
-        .iter()
-        .enumerate()
-        .filter(|(term, one)| one.role == Role::Stiffness && is_known(*term) && !is_local(&one.matrix));
+    let known =
+        at.model.terms().iter().enumerate().filter(|(term, one)| {
+            one.role == Role::Stiffness && !at.is_unknown(*term) && !is_local(&one.matrix)
+        });
     let known = known.filter_map(|(_, one)| one.factor.at(at.frequency_hz).ok());
     let around: Vec<f64> = around.into_iter().map(|k| values[k]).chain(known).map(loss_factor).collect();
     for &j in &local {

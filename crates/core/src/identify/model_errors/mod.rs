@@ -18,7 +18,6 @@
 
 mod causality;
 mod curve;
-
 mod estimated;
 mod found;
 mod leverage;
@@ -504,7 +503,7 @@ fn priors(at: &ModelAt<'_>, sizes: ErrorSizes, share_of_unknowns: f64) -> Vec<Fa
     let of_unknown = 2.0 * FREQUENCY_PRIOR_STD / share_of_unknowns;
     let of_unknown = of_unknown.clamp(FACTOR_PRIOR_STD, MAX_FACTOR_PRIOR_STD);
     let of_term = |term: usize| {
-        let is_known = !at.parameters.iter().any(|one| one.enters(term));
+        let is_known = !at.is_unknown(term);
         let (given, one) = (at.model.factor_std(term), &at.model.terms()[term]);
         let factor = one.factor.at(at.frequency_hz).unwrap_or_default();
         let loss_factor = if factor.re == 0.0 { 0.0 } else { factor.im / factor.re };
@@ -723,7 +722,7 @@ fn chi_squared<'s>(squares: &[Vec<f64>], sigma: impl IntoIterator<Item = &'s Vec
 /// the data cannot decide, they are in the bars.
 const RIGHT_MODEL_NATS: f64 = 5.0;
 
-/// It is none where errors of any size, however small, explain it better by more than this. Of right models none of 40 has more than 1.8.
+/// A model is not right where errors of any size, however small, explain the band better by more nats than this. In 40 cases of right models the most was 1.8.
 const CONTRADICTED_NATS: f64 = 2.5;
 
 /// Starts with more mismatch over the least of all are far from the answer.

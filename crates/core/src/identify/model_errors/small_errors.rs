@@ -1,7 +1,7 @@
 //! Small errors of a model about a place where a right model explains a band: what they promise, by the slopes there.
 
-use super::search::{Fitting, NEGLIGIBLE_STD, Normal, Sizes};
-use super::{Explained, FactorPrior, Measured};
+use super::search::{FactorPrior, Fitting, NEGLIGIBLE_STD, Normal, Sizes};
+use super::{Explained, Measured};
 use frfit_linalg::dense::Cholesky;
 
 /// Of the sizes before the data, at which usual errors are tried, and smaller ones.
