@@ -73,7 +73,7 @@ fn constants_are_within_their_bars(name: &str, model: &SeveralModel, bars: &[f64
 
 #[test]
 fn the_thickness_of_a_plate() {
-    constants_are_within_their_bars("plate-thickness", &plate_thickness(10).unwrap(), &[2e-5]);
+    constants_are_within_their_bars("plate-thickness", &plate_thickness(10).unwrap(), &[3e-5]);
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn stiffness_and_damping_of_a_joint() {
 
 #[test]
 fn the_mass_of_a_component_and_the_modulus_below_it() {
-    constants_are_within_their_bars("added-mass", &added_mass(40).unwrap(), &[5e-4, 5e-5, 1e-2]);
+    constants_are_within_their_bars("added-mass", &added_mass(40).unwrap(), &[5e-4, 1e-4, 2e-2]);
 }
 
 #[test]

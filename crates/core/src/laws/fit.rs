@@ -194,6 +194,15 @@ impl LawFit {
         self
     }
 
+    /// With what else θ is uncertain by.
+    pub(crate) fn with_larger_covariance(self, by: &[Vec<f64>]) -> Self {
+        let sum = |(own, by): (&Vec<f64>, &Vec<f64>)| own.iter().zip(by).map(|(own, by)| own + by).collect();
+        match self.covariance.as_ref().map(|own| own.iter().zip(by).map(sum).collect()) {
+            Some(covariance) => self.with_covariance(covariance),
+            None => self,
+        }
+    }
+
     /// With noise that is larger by the factor `times`.
     pub(crate) fn with_noise(self, times: f64) -> Self {
         let scaled = |covariance: &Vec<Vec<f64>>| {

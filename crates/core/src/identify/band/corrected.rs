@@ -45,7 +45,7 @@ pub(super) fn correct<'a>(
     let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, context.for_each);
     let found = BandOutcome { leverage, ..found };
     let errors = match explanation {
-        Explanation::RightModel => return found,
+        Explanation::RightModel | Explanation::Averaged(_) => return found,
         Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
         Explanation::Errors(errors) => *errors,
     };

@@ -21,9 +21,11 @@ use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
 use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::measured::Band;
-use crate::identify::model_errors::{Curve, Curves, Estimated, Split, estimate_with_laws};
+use crate::identify::model_errors::{
+    Curve, Curves, Estimated, Split, averaged_over_small_errors, estimate_with_laws,
+};
 use crate::identify::noise::{NoiseLevel, NoiseSource, without};
-use crate::identify::options::Options;
+use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::laws::{Datum, Evidence, LawFit, LawKind, LineResidual, Parametrization, best, starts};
@@ -142,7 +144,7 @@ pub(in crate::identify) fn identify_laws<'a>(
         (context.progress)(Stage::Law, fits.len(), kinds.len());
         fits.extend(fitting.fit(kind, &mut reduced, &free, best(&fits)));
     }
-    let has_errors = fitting.with_errors(&mut fits, &mut reduced, &mut free).is_some();
+    let of_law = if any_calibrated { fitting.with_errors(&mut fits, &mut reduced, &mut free) } else { None };
     if let Some((place, excess)) = fitting.excess(&fits, &free.noise) {
         fits[place] = fits[place].clone().with_noise(excess);
     }
@@ -191,7 +193,7 @@ pub(in crate::identify) fn identify_laws<'a>(
         reduced = again;
         reduced.localise(&all, context.for_each);
     }
-    let split = free.model_errors.as_ref().filter(|_| has_errors).and_then(Estimated::split);
+    let split = of_law.as_ref().and_then(Estimated::split);
     let (lines, fit) = match best(&fits) {
         Some(law) => {
             let (fit, noise) = judging.goodness(law, &free.noise);
@@ -212,15 +214,16 @@ pub(in crate::identify) fn identify_laws<'a>(
 }
 
 impl Fitting<'_, '_> {
-    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both.
+    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both. Of a right model they hold small errors.
     fn with_errors(
         &self,
         fits: &mut [LawFit],
         reduced: &mut Neighbourhoods<'_, '_>,
         free: &mut BandOutcome,
-    ) -> Option<()> {
-        let errors = free.model_errors.as_ref()?;
-        let rest = errors.rest;
+    ) -> Option<Estimated> {
+        if self.options.model_errors == ModelErrors::None || free.other_model {
+            return None;
+        }
         let kind = best(fits)?.kind;
         let place = fits.iter().position(|fit| fit.kind == kind)?;
         let weights = Weights::new((self.band, self.unknown), self.at, &free.left_out());
@@ -235,8 +238,14 @@ impl Fitting<'_, '_> {
             left.iter().map(|left| Channel::CALIBRATED.better(left.gain, left.late_s)).collect();
         channels.begin_at(&left, &mut theta);
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]).with_channels(channels);
-        let errors =
-            estimate_with_laws(reduced.whole(), &measured, errors, &curves, &[theta], self.context.for_each)?;
+        let (whole, for_each) = (reduced.whole(), self.context.for_each);
+        let Some(errors) = &free.model_errors else {
+            let averaged = averaged_over_small_errors(whole, &measured, &curves, &theta, for_each)?;
+            fits[place] = fits[place].clone().with_larger_covariance(&averaged.beside_noise());
+            return Some(averaged.estimated);
+        };
+        let rest = errors.rest;
+        let errors = estimate_with_laws(whole, &measured, errors, &curves, &[theta], for_each)?;
         // What was beside the noise is in the standard deviations already.
         let errors = errors.beside(rest);
         reduced.correct(&errors.modes, &errors.errors);
@@ -244,8 +253,8 @@ impl Fitting<'_, '_> {
         reduced.localise(&all, self.context.for_each);
         let again = self.fit(kind, reduced, free, Some(&fits[place]))?;
         fits[place] = again.with_covariance(errors.of_theta());
-        free.model_errors = Some(errors);
-        Some(())
+        free.model_errors = Some(errors.clone());
+        Some(errors)
     }
 
     /// The best law, and by how much its bars are too short where the band is nearly explained.

@@ -59,7 +59,7 @@ use frfit_linalg::dense::Cholesky;
 use local_stiffness::add_local_compliance;
 use mesh::BetweenMeshes;
 use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
-use small_errors::SmallErrors;
+use small_errors::{About, SmallErrors};
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -302,6 +302,8 @@ type Fit<'f> = &'f dyn Fn(&Fitting<'_, '_>, Place) -> Option<Explained>;
 pub(super) enum Explanation {
     /// A right model does as well as one with errors.
     RightModel,
+    /// The same, with what small errors may do in its covariance.
+    Averaged(Box<Estimated>),
     /// One with small errors.
     Errors(Box<Estimated>),
     /// One whose errors are no small ones: it is another model.
@@ -356,7 +358,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return right_model();
     }
     let is_noise = || data.is_noise(&right, data.numbers(&search.lines), curves);
-    let small = if sized { None } else { Some(SmallErrors::new(data, &whole, &right, &given)?) };
+    let about = || About::new(data, &whole, &right, &given);
+    let small = if sized { None } else { Some(SmallErrors::new(&about()?)?) };
     let contradicted = small.map(|small| small.small_nats).filter(|nats| *nats > CONTRADICTED_NATS);
     let is_right = small.is_some_and(|small| small.usual_nats <= -RIGHT_MODEL_NATS);
     if is_right && contradicted.is_none() && is_noise() {
@@ -461,6 +464,51 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     }
     let estimated = data.posterior(&fine, wrong, evidence)?;
     Some(Explanation::Errors(Box::new(Estimated { modes: search.modes.clone(), ..estimated })))
+}
+
+/// A right model whose covariance holds what errors too small to be seen may do.
+pub(super) struct AveragedModel {
+    pub(super) estimated: Estimated,
+    /// The covariance of θ by the noise alone.
+    of_noise: Vec<f64>,
+}
+
+impl AveragedModel {
+    /// What small errors add to the covariance of the unknowns' θ, row after row.
+    pub(super) fn beside_noise(&self) -> Vec<Vec<f64>> {
+        let own = self.estimated.of_theta();
+        let noise = self.of_noise.chunks_exact(self.estimated.theta().len().max(1));
+        own.into_iter()
+            .zip(noise)
+            .map(|(own, noise)| own.iter().zip(noise).map(|(a, b)| a - b).collect())
+            .collect()
+    }
+}
+
+/// A right model at θ, averaged over errors too small to be seen. `None` where the case says how large errors are, or a coarser mesh does, and where
+/// several sensors agree to roundoff.
+pub(super) fn averaged_over_small_errors(
+    model: &Projection,
+    data: &Measured<'_, '_>,
+    curves: &Curves,
+    theta: &[f64],
+    for_each: ForEach<'_>,
+) -> Option<AveragedModel> {
+    let is_known = data.given_sizes.any() || data.coarser.is_some() || !data.may_be_wrong || data.is_exact();
+    let search = if is_known { None } else { Search::new(model, data, (curves, theta), theta, for_each) }?;
+    if search.factors.iter().any(|factor| factor.is_given) {
+        return None;
+    }
+    let (near, modes) = search.smaller(&search.points(theta), NEIGHBOURHOOD_TOL);
+    let none = Modes::none(&near);
+    let fitting = Fitting { factors: &[], ..search.fitting(&near, &none, &search.lines) };
+    let right = data.settled_near(&fitting, fitting.start(theta))?;
+    let whole = search.fitting(&near, &modes, &search.lines);
+    let about = About::new(data, &whole, &right, &[])?;
+    let (moments, of_noise, place) = (about.second_moments()?, about.of_none()?, about.place);
+    let at = Explained { found: Minimum { place, ..right.found }, ..right };
+    let estimated = Estimated { modes: search.modes.clone(), ..data.estimated(&whole, at, &moments) };
+    Some(AveragedModel { estimated, of_noise })
 }
 
 /// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are. Of several places to begin with
@@ -1029,13 +1077,24 @@ impl<'a> Measured<'_, 'a> {
     }
 
     fn posterior(&self, fitting: &Fitting<'_, '_>, wrong: Explained, evidence: f64) -> Option<Estimated> {
-        let Explained { found, sizes, level, rest, .. } = wrong;
-        let n = fitting.count();
-        let precision = fitting.precision(&sizes.with_dependent_shapes(fitting.sensors()));
-        let sigma = self.sigma_beside(fitting.lines, level, rest);
-        let found = fitting.descend(found.place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
+        let precision = fitting.precision(&wrong.sizes.with_dependent_shapes(fitting.sensors()));
+        let sigma = self.sigma_beside(fitting.lines, wrong.level, wrong.rest);
+        let found = fitting.descend(wrong.found.place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
         let whole = found.normal.with_prior(&precision);
-        let inverse = Cholesky::new(n, &whole).ok()?.inverse();
+        let inverse = Cholesky::new(fitting.count(), &whole).ok()?.inverse();
+        let estimated = self.estimated(fitting, Explained { found, ..wrong }, &inverse);
+        let mut estimated = Estimated { evidence, ..estimated };
+        if fitting.modes() > 0 {
+            let (count, theta) = (estimated.count(), estimated.theta().to_vec());
+            add_local_compliance(&mut estimated.covariance, count, fitting, &theta)?;
+        }
+        Some(estimated)
+    }
+
+    /// What is at a minimum, with the covariance of the search's coordinates there, n × n.
+    fn estimated(&self, fitting: &Fitting<'_, '_>, at: Explained, covariance: &[f64]) -> Estimated {
+        let Explained { found, sizes, level, rest, .. } = at;
+        let n = fitting.count();
         let errors = fitting.errors(&found.place);
         let first = fitting.first_own();
         let modes = errors.stiffness.len();
@@ -1044,7 +1103,7 @@ impl<'a> Measured<'_, 'a> {
         let scale = fitting.of_scale();
         let before_errors = theta + usize::from(scale.is_some());
         let kept = n - first + before_errors;
-        let of = |a: usize, b: usize| inverse[a * n + b];
+        let of = |a: usize, b: usize| covariance[a * n + b];
         // What of each of the search's coordinates is in θ, e, δ_i, ν_t, a_mi.
         let parts = |a: usize| -> Vec<(usize, f64)> {
             let Some(error) = a.checked_sub(before_errors) else { return vec![(a, 1.0)] };
@@ -1059,11 +1118,8 @@ impl<'a> Measured<'_, 'a> {
             let row = |&(i, x): &(usize, f64)| parts[b].iter().map(|&(j, y)| x * y * of(i, j)).sum::<f64>();
             parts[a].iter().map(row).sum::<f64>()
         };
-        let mut covariance: Vec<f64> = (0..kept * kept).map(|k| entry(k % kept, k / kept)).collect();
-        if modes > 0 {
-            add_local_compliance(&mut covariance, kept, fitting, &found.place[..theta])?;
-        }
-        Some(Estimated {
+        let covariance = (0..kept * kept).map(|k| entry(k % kept, k / kept)).collect();
+        Estimated {
             modes: fitting.modes.clone(),
             errors,
             covariance,
@@ -1072,7 +1128,7 @@ impl<'a> Measured<'_, 'a> {
             numbers: self.numbers(fitting.lines),
             level,
             rest,
-            evidence,
+            evidence: 0.0,
             kinds: fitting.kinds,
             highest_rad_s: fitting.highest_rad_s,
             curves: fitting.curves.clone(),
@@ -1087,6 +1143,6 @@ impl<'a> Measured<'_, 'a> {
                 std: of(p, p).max(0.0).sqrt(),
             }),
             place: found.place,
-        })
+        }
     }
 }

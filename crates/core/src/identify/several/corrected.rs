@@ -12,14 +12,15 @@ use crate::frfs::{Noise, standard_deviations};
 use crate::identify::band::{MAX_TRAINING_ROUNDS, nearest};
 use crate::identify::form::Form;
 use crate::identify::model_errors::{
-    Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline, estimate,
-    estimate_with_laws,
+    Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline,
+    averaged_over_small_errors, estimate, estimate_with_laws,
 };
 use crate::identify::noise::{beside, levels, without};
 use crate::identify::options::ModelErrors;
 use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::Datum;
 use crate::subspace::{Corrected, Point};
+use std::ops::Range;
 
 impl Task<'_, '_> {
     /// What is found when the errors of the model are estimated and corrected for; the same where a right model explains the band as well.
@@ -39,6 +40,11 @@ impl Task<'_, '_> {
             // No smooth curve was found.
             Explanation::RightModel if is_smooth => return found.of_other_model(),
             Explanation::RightModel => return found,
+            Explanation::Averaged(errors) => {
+                reduced.correct(&errors.modes, &errors.errors, self.context.for_each);
+                let judged = self.judge(reduced, solution, Some(&errors));
+                return SeveralOutcome { leverage: found.leverage, ..judged };
+            }
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
         };
@@ -170,6 +176,10 @@ impl Task<'_, '_> {
             estimate(reduced.whole(), &measured, &curves(false), self.context.for_each);
         let errors = match explanation {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
+            Explanation::RightModel => {
+                let averaged = || self.averaged(reduced, solution, &measured, &curves(true));
+                return (averaged().map_or(Explanation::RightModel, Explanation::Averaged), leverage);
+            }
             explanation => return (explanation, leverage),
         };
         let with = |of_law: &dyn Fn(&Own) -> Vec<f64>| -> Vec<f64> {
@@ -194,6 +204,26 @@ impl Task<'_, '_> {
         let explanation =
             with_laws.map_or(Explanation::OtherModel, |found| Explanation::Errors(Box::new(found)));
         (explanation, leverage)
+    }
+
+    /// A right model whose error bars hold small errors, where every unknown has numbers that hold for the band.
+    fn averaged(
+        &self,
+        reduced: &Neighbourhoods<'_>,
+        solution: &BandSolution,
+        measured: &Measured<'_, '_>,
+        curves: &Curves,
+    ) -> Option<Box<Estimated>> {
+        let mut theta = vec![0.0; curves.count()];
+        let coordinates = &solution.coordinates;
+        let mut set = |at: Range<usize>, from: Range<usize>| theta[at].copy_from_slice(&solution.theta[from]);
+        coordinates.each.iter().for_each(|own| set(curves.range(own.unknowns), own.range.clone()));
+        set(curves.channels().range(), coordinates.channels.range());
+        let is_of_band = coordinates.each.len() == self.problem.unknowns.len();
+        let (model, for_each) = (reduced.whole(), self.context.for_each);
+        let averaged =
+            is_of_band.then(|| averaged_over_small_errors(model, measured, curves, &theta, for_each))?;
+        averaged.map(|averaged| Box::new(averaged.estimated))
     }
 
     /// The law of an unknown nearest to the smooth curve that was found with the errors of the model.
