@@ -88,7 +88,8 @@ pub struct Direction {
 /// The misfit along the least identifiable direction, all else at its best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// How far from the answer along the least identifiable direction, and by how much χ² is larger there.
+    /// How far from the answer along the least identifiable direction, and by how much χ² is larger there: by 1 a standard deviation away where the bars hold noise alone, by more where they
+    /// hold errors of the model too.
     pub points: Vec<(f64, f64)>,
 }
 
