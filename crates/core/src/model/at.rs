@@ -1,6 +1,6 @@
 //! The model at one frequency, as a polynomial in its parameters' corrections.
 
-use super::{DynamicStiffness, Parameter};
+use super::{DynamicStiffness, Parameter, Term};
 use crate::c64;
 use crate::material::OutsideTable;
 
@@ -126,6 +126,12 @@ impl ModelAt<'_> {
     /// Whether an unknown enters a term.
     pub(crate) fn is_unknown(&self, term: usize) -> bool {
         self.parameters.iter().any(|parameter| parameter.enters(term))
+    }
+
+    /// The terms that an unknown enters.
+    pub(crate) fn terms_of(&self, unknown: usize) -> impl Iterator<Item = &Term> {
+        let is_entered = move |(term, _): &(usize, &Term)| self.parameters[unknown].enters(*term);
+        self.model.terms().iter().enumerate().filter(is_entered).map(|(_, term)| term)
     }
 
     /// The entries of D(c) on the model's pattern; `corrections[j]` is c_j.

@@ -9,7 +9,7 @@ use super::middle;
 use super::search::Fitting;
 use crate::c64;
 use crate::material::loss_factor;
-use crate::model::{ModelAt, Role, Term};
+use crate::model::Role;
 use frfit_linalg::dense::Cholesky;
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
 
@@ -31,9 +31,9 @@ pub(super) fn add_local_compliance(
     let (values, slopes) = fitting.curves.values(theta, line, omega)?;
     let at = (fitting.point)(line, &values)?.at;
     let stiffnesses: Vec<usize> =
-        (0..values.len()).filter(|&j| terms_of(&at, j).all(|term| term.role == Role::Stiffness)).collect();
+        (0..values.len()).filter(|&j| at.terms_of(j).all(|term| term.role == Role::Stiffness)).collect();
     let (local, around): (Vec<usize>, Vec<usize>) =
-        stiffnesses.into_iter().partition(|&j| terms_of(&at, j).all(|term| is_local(&term.matrix)));
+        stiffnesses.into_iter().partition(|&j| at.terms_of(j).all(|term| is_local(&term.matrix)));
     let known =
         at.model.terms().iter().enumerate().filter(|(term, one)| {
             one.role == Role::Stiffness && !at.is_unknown(*term) && !is_local(&one.matrix)
@@ -54,12 +54,6 @@ pub(super) fn add_local_compliance(
         }
     }
     Some(())
-}
-
-/// The terms that an unknown enters.
-fn terms_of<'m>(at: &'m ModelAt<'_>, unknown: usize) -> impl Iterator<Item = &'m Term> {
-    let is_entered = move |(term, _): &(usize, &Term)| at.parameters[unknown].enters(*term);
-    at.model.terms().iter().enumerate().filter(is_entered).map(|(_, term)| term)
 }
 
 fn is_local(matrix: &SymmetricMatrix) -> bool {

@@ -590,6 +590,8 @@ struct Search<'t, 'a> {
     values_of_modes: Vec<c64>,
     /// Known factors that may be in error.
     factors: Vec<FactorPrior>,
+    /// Unknown stiffnesses with damping, whose loss factors may have an error in common.
+    damped: Vec<usize>,
     /// What lies between the meshes, where there are two.
     mesh: Option<BetweenMeshes>,
 }
@@ -610,7 +612,14 @@ impl<'t, 'a> Search<'t, 'a> {
         let Point { at, correction } = data.on(curves, theta, middle(&lines))?;
         let highest = *data.omegas.last()?;
         let modes = model.modes(&at, correction, MODES_ABOVE_BAND * highest, MAX_MODES).ok()?;
+        // Curves that are the answer are judged by the response on the corrected model, whose errors are those of modes.
+        let is_damped = |&j: &usize| {
+            !data.wants_curves
+                && values_of_modes[j].im != 0.0
+                && at.terms_of(j).all(|term| term.role == Role::Stiffness)
+        };
         Some(Self {
+            damped: (0..values_of_modes.len()).filter(is_damped).collect(),
             model,
             data,
             curves,
@@ -714,6 +723,7 @@ impl<'t, 'a> Search<'t, 'a> {
             centre: self.centre,
             highest_rad_s: self.data.omegas[self.data.omegas.len() - 1],
             factors: &self.factors,
+            damped: &self.damped,
             kinds: Kinds::ALL,
             mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
             known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref(), self.curves.is_beside_others()),

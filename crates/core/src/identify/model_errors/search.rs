@@ -33,6 +33,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) highest_rad_s: f64,
     /// Known factors that may be in error.
     pub(super) factors: &'t [FactorPrior],
+    /// Unknown stiffnesses with damping, whose loss factors may have an error in common.
+    pub(super) damped: &'t [usize],
     /// Errors that are searched beside those of stiffness, shapes and factors.
     pub(super) kinds: Kinds,
     /// What lies between the meshes, where there are two; none without modes.
@@ -150,6 +152,14 @@ impl Normal {
     }
 }
 
+/// Slopes of the unknowns at a line, with the number of the unknown.
+struct Slopes {
+    /// ∂p/∂θ.
+    of_theta: Vec<(usize, c64)>,
+    /// ∂p/∂ε of the error that all loss factors have in common.
+    of_loss: Vec<(usize, c64)>,
+}
+
 /// A minimum.
 pub(super) struct Minimum {
     pub(super) place: Place,
@@ -258,6 +268,39 @@ impl Fitting<'_, '_> {
             *last = mesh.stiffness[i];
         }
         parts
+    }
+
+    /// The place of the error that all loss factors of unknown stiffness have in common, where there is one: it is one of the unknowns, p → Re p + i(1 + ε) Im p, and not of the modes that are
+    /// there. Beyond these a coarse mesh is wrong, and what it lacks would be taken for a difference between the loss factor of the material and that of the modes.
+    fn of_unknown_loss(&self) -> Option<usize> {
+        let group = self.modes.groups().checked_sub(1).filter(|_| !self.damped.is_empty())?;
+        Some(self.curves.count() + COMMON_PARTS * group + COMMON_FREQUENCY_PARTS)
+    }
+
+    /// The model with the errors at a place, but for those that are the unknowns'.
+    fn model_at(&self, place: &[f64]) -> (ModalErrors, Projection) {
+        let mut of_model = place.to_vec();
+        self.of_unknown_loss().into_iter().for_each(|i| of_model[i] = 0.0);
+        let errors = self.errors(&of_model);
+        let model = self.model.with_errors(self.modes, &errors);
+        (errors, model)
+    }
+
+    /// The unknowns at a line with their errors, and their slopes.
+    fn unknowns_at(&self, place: &[f64], line: usize) -> Option<(Vec<c64>, Slopes)> {
+        let (mut values, mut of_theta) = self.curves.values(place, line, self.omegas[line])?;
+        let mut of_loss = Vec::new();
+        if let Some(error) = self.of_unknown_loss().map(|i| place[i]) {
+            let with_error = |value: c64| c64::new(value.re, (1.0 + error) * value.im);
+            let is_damped = |j: &usize| self.damped.contains(j);
+            let slopes = of_theta.iter_mut().filter(|(j, _)| is_damped(j));
+            slopes.for_each(|(_, slope)| *slope = with_error(*slope));
+            for &j in self.damped {
+                of_loss.push((j, c64::new(0.0, values[j].im)));
+                values[j] = with_error(values[j]);
+            }
+        }
+        Some((values, Slopes { of_theta, of_loss }))
     }
 
     /// The common parts of δ, or of ε.
@@ -516,11 +559,12 @@ impl Fitting<'_, '_> {
     fn row(
         &self,
         slopes: &ErrorSlopes,
-        (of_theta, omega_rad_s): (&[(usize, c64)], f64),
+        (Slopes { of_theta, of_loss }, omega_rad_s): (&Slopes, f64),
         common: &[Vec<f64>],
         m: usize,
     ) -> Vec<c64> {
-        let mut row: Vec<c64> = of_theta.iter().map(|(j, of)| slopes.slopes[*j][m] * of).collect();
+        let along = |(j, slope): &(usize, c64)| slopes.slopes[*j][m] * slope;
+        let mut row: Vec<c64> = of_theta.iter().map(along).collect();
         row.extend(self.curves.channels().slopes(slopes.response[m], m, omega_rad_s));
         if self.modes() > 0 {
             let mut of_common = vec![c64::default(); self.common_errors()];
@@ -528,6 +572,9 @@ impl Fitting<'_, '_> {
                 of_common.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part * slope);
             }
             of_common[0] = slopes.scale[m];
+            if let Some(place) = self.of_unknown_loss() {
+                of_common[place - self.curves.count()] = of_loss.iter().map(along).sum();
+            }
             if let (Some(mesh), Some(last)) = (self.mesh, of_common.last_mut()) {
                 let at = |by: &[f64], slopes: &[c64]| -> c64 {
                     by.iter().zip(slopes).map(|(by, slope)| *by * slope).sum()
@@ -551,8 +598,7 @@ impl Fitting<'_, '_> {
     /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
     pub(super) fn normal(&self, place: &[f64], sigma: &[Vec<f64>]) -> Option<Normal> {
         let n = self.count();
-        let errors = self.errors(place);
-        let model = self.model.with_errors(self.modes, &errors);
+        let (errors, model) = self.model_at(place);
         let common: Vec<Vec<f64>> = (0..self.stiffness_errors()).map(|i| self.common(i)).collect();
         // The coordinates on which the response at each sensor hangs.
         let moving: Vec<usize> = (0..self.shared()).filter(|&i| self.moves(i)).collect();
@@ -566,10 +612,10 @@ impl Fitting<'_, '_> {
             moving.iter().copied().chain(self.shared()..self.shared() + self.modes()).collect();
         let rows = |k: usize| -> Option<Vec<Option<[Vec<f64>; 2]>>> {
             let i = self.lines[k];
-            let (slopes, of_theta) = self.shown(&model, &errors, place, i)?;
+            let (slopes, of_unknowns) = self.shown(&model, &errors, place, i)?;
             let at_sensor = |m: usize| {
                 let sigma = Some(sigma[k][m]).filter(|sigma| sigma.is_finite())?;
-                let row = self.row(&slopes, (&of_theta, self.omegas[i]), &common, m);
+                let row = self.row(&slopes, (&of_unknowns, self.omegas[i]), &common, m);
                 let rest = self.measured[i][m] - slopes.response[m];
                 let each = || places.iter().map(|&place| row[place]).chain([rest]).map(move |x| x / sigma);
                 Some([each().map(|x| x.re).collect(), each().map(|x| x.im).collect()])
@@ -604,19 +650,19 @@ impl Fitting<'_, '_> {
         Some(sum).filter(|sum| sum.chi_squared.is_finite())
     }
 
-    /// What the sensors show at a line, with its slopes, and (unknown, ∂p/∂θ).
+    /// What the sensors show at a line, with its slopes, and those of the unknowns.
     fn shown(
         &self,
         model: &Projection,
         errors: &ModalErrors,
         place: &[f64],
         line: usize,
-    ) -> Option<(ErrorSlopes, Vec<(usize, c64)>)> {
-        let (values, of_theta) = self.curves.values(place, line, self.omegas[line])?;
+    ) -> Option<(ErrorSlopes, Slopes)> {
+        let (values, of_unknowns) = self.unknowns_at(place, line)?;
         let point = (self.point)(line, &values)?;
         let slopes =
             model.respond_with_error_slopes((self.modes, errors), &point.at, point.correction).ok()?;
-        Some((slopes.shown(&self.curves.shares(place, self.omegas[line])), of_theta))
+        Some((slopes.shown(&self.curves.shares(place, self.omegas[line])), of_unknowns))
     }
 
     /// |u_m − x_m|² at each of the lines; `None` where the response is not finite.
@@ -629,10 +675,10 @@ impl Fitting<'_, '_> {
 
     /// x_m at each of the lines; `None` where it is not finite.
     pub(super) fn responses(&self, place: &[f64]) -> Option<Vec<Vec<c64>>> {
-        let model = self.model.with_errors(self.modes, &self.errors(place));
+        let (_, model) = self.model_at(place);
         let at_line = |k: usize| -> Option<Vec<c64>> {
             let i = self.lines[k];
-            let (values, _) = self.curves.values(place, i, self.omegas[i])?;
+            let (values, _) = self.unknowns_at(place, i)?;
             let point = (self.point)(i, &values)?;
             let response = model.respond_at(&point.at, point.correction).ok()?;
             Some(self.curves.shown(place, self.omegas[i], &response))
