@@ -10,7 +10,7 @@
 //! It is a right model only where it is better by some nats. Of several unknowns each is a constant, a law or a spline.
 //!
 //! The errors of a mesh grow with ω_i, those of a support fall with 1/ω_i²: e is a sum of such parts. A rigid body has no stiffness that could be in error; its δ is that of a
-//! support that the model does not have.
+//! support that the model does not have. An error that all loss factors have in common is one of the unknown, Re p + i(1 + ε) Im p.
 //!
 //! # Source
 //! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425–464 (errors of a model beside its parameters); D. J. C. MacKay, Neural Comput. 4 (1992) 415–447
