@@ -1,6 +1,6 @@
 //! The model at one frequency, as a polynomial in its parameters' corrections.
 
-use super::{DynamicStiffness, Parameter, Term};
+use super::{DynamicStiffness, Parameter, Role, Term};
 use crate::c64;
 use crate::material::OutsideTable;
 
@@ -132,6 +132,11 @@ impl ModelAt<'_> {
     pub(crate) fn terms_of(&self, unknown: usize) -> impl Iterator<Item = &Term> {
         let is_entered = move |(term, _): &(usize, &Term)| self.parameters[unknown].enters(*term);
         self.model.terms().iter().enumerate().filter(is_entered).map(|(_, term)| term)
+    }
+
+    /// Whether an unknown enters stiffness alone.
+    pub(crate) fn is_stiffness(&self, unknown: usize) -> bool {
+        self.terms_of(unknown).all(|term| term.role == Role::Stiffness)
     }
 
     /// The entries of D(c) on the model's pattern; `corrections[j]` is c_j.

@@ -30,10 +30,9 @@ pub(super) fn add_local_compliance(
     let omega = fitting.omegas[line];
     let (values, slopes) = fitting.curves.values(theta, line, omega)?;
     let at = (fitting.point)(line, &values)?.at;
-    let stiffnesses: Vec<usize> =
-        (0..values.len()).filter(|&j| at.terms_of(j).all(|term| term.role == Role::Stiffness)).collect();
+    let stiffnesses = (0..values.len()).filter(|&j| at.is_stiffness(j));
     let (local, around): (Vec<usize>, Vec<usize>) =
-        stiffnesses.into_iter().partition(|&j| at.terms_of(j).all(|term| is_local(&term.matrix)));
+        stiffnesses.partition(|&j| at.terms_of(j).all(|term| is_local(&term.matrix)));
     let known =
         at.model.terms().iter().enumerate().filter(|(term, one)| {
             one.role == Role::Stiffness && !at.is_unknown(*term) && !is_local(&one.matrix)

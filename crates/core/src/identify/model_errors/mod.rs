@@ -613,11 +613,7 @@ impl<'t, 'a> Search<'t, 'a> {
         let highest = *data.omegas.last()?;
         let modes = model.modes(&at, correction, MODES_ABOVE_BAND * highest, MAX_MODES).ok()?;
         // Curves that are the answer are judged by the response on the corrected model, whose errors are those of modes.
-        let is_damped = |&j: &usize| {
-            !data.wants_curves
-                && values_of_modes[j].im != 0.0
-                && at.terms_of(j).all(|term| term.role == Role::Stiffness)
-        };
+        let is_damped = |&j: &usize| !data.wants_curves && values_of_modes[j].im != 0.0 && at.is_stiffness(j);
         Some(Self {
             damped: (0..values_of_modes.len()).filter(is_damped).collect(),
             model,
