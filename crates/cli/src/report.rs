@@ -405,12 +405,12 @@ fn work(text: &mut Text, job: &IdentifyJob) {
 fn smooth(text: &mut Text, curve: &SmoothCurve) {
     let SmoothCurve { parameters, width_octaves, .. } = curve;
     let settled = if curve.converged { "" } else { ", not settled" };
-    let odd = match curve.unexplained {
+    let odd = match curve.outliers {
         0 => String::new(),
         count => format!("; {count} frequencies that it does not explain have no say in it"),
     };
     let sentence = format!("{parameters:.1} parameters, one for {width_octaves:.2} octaves{settled}{odd}");
-    text.add(!curve.converged || curve.unexplained > 0, "smooth", &sentence);
+    text.add(!curve.converged || curve.outliers > 0, "smooth", &sentence);
 }
 
 fn wrote(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase, out: &Path) {

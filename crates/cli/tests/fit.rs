@@ -223,7 +223,7 @@ fn a_smooth_modulus_is_found_from_a_hammer_test() {
     let out = summary["identify"]["left_out"].as_u64().unwrap();
     assert!(out > 5 && summary["status"]["ok"] == 676 - out, "{:#}", summary["status"]);
     let curve = &summary["smooth"];
-    assert!(curve["converged"] == true && curve["unexplained"] == 0, "{curve:#}");
+    assert!(curve["converged"] == true && curve["outliers"] == 0, "{curve:#}");
     assert!(
         curve["parameters"].as_f64().unwrap() > 2.0 && curve["width_octaves"].as_f64().unwrap() > 0.0,
         "{curve:#}"

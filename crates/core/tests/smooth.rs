@@ -280,7 +280,7 @@ fn a_line_that_nothing_explains_is_left_out_and_marked() {
     let found = test.identify(&u, Known::Known(&std), &test.setup());
     let lines = &found.lines;
     assert_eq!(lines[20].status, Status::Unexplained);
-    assert_eq!(found.curve.unwrap().unexplained, 1);
+    assert_eq!(found.curve.unwrap().outliers, 1);
     assert!(lines.iter().enumerate().all(|(k, o)| k == 20 || o.status == Status::Ok));
     let off = (lines[20].factor().unwrap() - test.truth.at(lines[20].frequency_hz).unwrap()).norm();
     assert!(off < 3.0 * lines[20].uncertainty().unwrap().correction_std);

@@ -461,14 +461,14 @@ pub fn check_text(job: &CheckJob) -> Words {
         (Some(reason), _) => words.warn(&format!("  not judged        {}\n", not_judged(reason))),
         (None, Some(misfit)) => {
             let left = format!("ln(measured/model) is left with {misfit:.2} by the likeliest modulus");
-            let (label, end) = match (diagnosis.findings.is_empty(), misfit > UNEXPLAINED) {
+            let (label, end) = match (diagnosis.findings.is_empty(), misfit > LARGE_MISFIT) {
                 (true, false) => ("no finding", ""),
-                (true, true) if diagnosis.others.is_empty() => ("no finding", UNEXPLAINED_WORDS),
+                (true, true) if diagnosis.others.is_empty() => ("no finding", NO_FAULT_EXPLAINS_THEM),
                 (true, true) => ("no finding", ": that is much"),
                 (false, false) => ("left", ""),
                 (false, true) => ("left", ": that is much, and no other fault that frfit knows explains it"),
             };
-            words.add(misfit > UNEXPLAINED, &format!("  {label:<18}{left}{end}\n"));
+            words.add(misfit > LARGE_MISFIT, &format!("  {label:<18}{left}{end}\n"));
         }
         (None, None) => {}
     }
@@ -476,8 +476,8 @@ pub fn check_text(job: &CheckJob) -> Words {
 }
 
 /// Of data that nothing explains, with the way on.
-const UNEXPLAINED_WORDS: &str = ": that is much. The data do not fit the model, and no single or double fault explains it; \
+const NO_FAULT_EXPLAINS_THEM: &str = ": that is much. The data do not fit the model, and no single or double fault explains it; \
                                  `frfit modes` shows natural frequencies and shapes of both side by side";
 
 /// A misfit beyond this is more than noise from which a modulus can be identified: a factor of 1.3, or 17 degrees.
-const UNEXPLAINED: f64 = 0.3;
+const LARGE_MISFIT: f64 = 0.3;

@@ -56,10 +56,10 @@ const MAX_TOP_OVER_ROW: f64 = 2.0;
 const MODES_LN_RANGE: f64 = 0.05;
 
 /// Another axis is tried where this misfit is left: five per cent, or three degrees.
-const UNEXPLAINED_MISFIT: f64 = 0.05;
+const NOTABLE_MISFIT: f64 = 0.05;
 
 /// The axis of a unit that is seldom taken for another one is tried where this is left: a factor of 1.3, or 17 degrees.
-const VERY_UNEXPLAINED_MISFIT: f64 = 0.3;
+const LARGE_MISFIT: f64 = 0.3;
 
 /// What is measured by some sensors.
 #[derive(Clone, Copy)]
@@ -262,8 +262,8 @@ impl Look<'_> {
         };
         // Nothing is accused before everything else was looked at.
         let [of_axis, of_rows] = match self.depth {
-            Depth::Quick if choose(&as_given, &tried).is_none() => [VERY_UNEXPLAINED_MISFIT; 2],
-            Depth::Quick | Depth::Full => [UNEXPLAINED_MISFIT, EXPLAINED_MISFIT],
+            Depth::Quick if choose(&as_given, &tried).is_none() => [LARGE_MISFIT; 2],
+            Depth::Quick | Depth::Full => [NOTABLE_MISFIT, EXPLAINED_MISFIT],
         };
         if left(&tried, |fitted| fitted.misfit.sigma) > of_axis {
             tried.extend(self.axis(responses, &as_given, TAU, false).unwrap_or_default());
@@ -285,20 +285,20 @@ impl Look<'_> {
         }
         // No stiffness turns a response round.
         let is_stiffness_like =
-            |one: &Explanation| !one.is_of_sense() || one.fitted.misfit.sigma > UNEXPLAINED_MISFIT;
+            |one: &Explanation| !one.is_of_sense() || one.fitted.misfit.sigma > NOTABLE_MISFIT;
         let is_accused = choose(&as_given, &tried).is_some_and(|choice| is_stiffness_like(choice.best));
         let is_full = self.depth == Depth::Full;
-        if is_full && left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+        if is_full && left(&tried, |fitted| fitted.misfit.sigma) > LARGE_MISFIT {
             tried.extend(self.axis(responses, &as_given, TAU, true).unwrap_or_default());
         }
         let is_far = is_full
             && as_given.fitted.misfit.sigma > FAR_MISFIT
-            && left(&tried, |fitted| fitted.misfit.sigma) > UNEXPLAINED_MISFIT;
+            && left(&tried, |fitted| fitted.misfit.sigma) > NOTABLE_MISFIT;
         // What is accused may be a nominal value just beyond the box.
         let powers = if is_far { MAX_POWER_OF_TEN } else { i32::from(is_accused) };
         tried.extend(self.far_nominals(responses, &as_given, powers));
         // Higher frequencies have more modes, and cost most.
-        if is_full && left(&tried, |fitted| fitted.misfit.sigma) > VERY_UNEXPLAINED_MISFIT {
+        if is_full && left(&tried, |fitted| fitted.misfit.sigma) > LARGE_MISFIT {
             tried.extend(self.axis(responses, &as_given, 1.0 / TAU, false).unwrap_or_default());
         }
         Ok((as_given, tried))

@@ -224,8 +224,8 @@ class Identification:
     """The laws that were fitted, as in ``law.json``; ``None`` where none was asked for."""
     smooth: dict[str, Any] | None
     """How smooth the factor is, as in ``summary.json``: ``parameters`` that the curve takes for each of its parts,
-    ``width_octaves``, ``converged``, frequencies ``unexplained``. ``None`` where the factor was not to be smooth, or where no
-    curve fits."""
+    ``width_octaves``, ``converged``, frequencies left out as ``outliers``. ``None`` where the factor was not to be
+    smooth, or where no curve fits."""
     noise: float | None
     """Noise over the assumed standard deviations; ``None`` where it is not known."""
     noise_source: str

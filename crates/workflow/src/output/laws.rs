@@ -61,7 +61,7 @@ pub fn law_json(fit: &LawFit, of: FactorUnit) -> Value {
 pub fn smooth_json(curve: &SmoothCurve) -> Value {
     json!({
         "parameters": curve.parameters, "width_octaves": curve.width_octaves,
-        "converged": curve.converged, "unexplained": curve.unexplained,
+        "converged": curve.converged, "outliers": curve.outliers,
     })
 }
 
@@ -122,7 +122,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
             fit.starts
         );
     }
-    if chosen.sigma_known && chosen.reduced_chi_squared().is_some_and(|chi| chi > UNEXPLAINED) {
+    if chosen.sigma_known && chosen.reduced_chi_squared().is_some_and(|chi| chi > LARGE_CHI_SQUARED) {
         text += "  no law explains the data within their standard deviations: those hold noise only, and so do the parameters'\n";
     }
     let _ = writeln!(text, "  {}", chosen.kind);
@@ -137,7 +137,7 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
 }
 
 /// χ² per degree of freedom above this is no noise, however few data there are: five standard deviations a number.
-const UNEXPLAINED: f64 = 25.0;
+const LARGE_CHI_SQUARED: f64 = 25.0;
 
 /// So many digits behind the point, or a power of ten where there are many before it.
 fn short(value: f64, digits: usize) -> String {

@@ -54,7 +54,7 @@ pub struct SmoothCurve {
     /// Whether Gauss and Newton's steps came to an end.
     pub converged: bool,
     /// Frequencies that no smooth modulus explains, and which were left out.
-    pub unexplained: usize,
+    pub outliers: usize,
     observations: Vec<Observation>,
     evidence: Evidence,
     level: f64,
@@ -165,7 +165,7 @@ struct Fitted {
     evidence: Evidence,
     smoothed: Smoothed,
     converged: bool,
-    unexplained: usize,
+    outliers: usize,
     /// Work before.
     before: crate::response::Work,
 }
@@ -220,13 +220,13 @@ impl Smoothing<'_, '_> {
             let odd: Vec<usize> = all
                 .iter()
                 .copied()
-                .filter(|&i| used[i] && self.unexplained(reduced, &states, smoothed.level, i))
+                .filter(|&i| used[i] && self.is_outlier(reduced, &states, smoothed.level, i))
                 .collect();
-            let unexplained = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
-            let few = ((unexplained + odd.len()) as f64) < MAX_OUTLIER_SHARE * all.len() as f64;
+            let outliers = all.iter().filter(|&&i| !used[i] && self.log_omega(i).is_finite()).count();
+            let few = ((outliers + odd.len()) as f64) < MAX_OUTLIER_SHARE * all.len() as f64;
             if odd.is_empty() || !few {
                 let Linearised { observations, evidence, .. } = linear;
-                return Some(Fitted { observations, evidence, smoothed, converged, unexplained, before });
+                return Some(Fitted { observations, evidence, smoothed, converged, outliers, before });
             }
             odd.into_iter().for_each(|i| used[i] = false);
         }
@@ -367,13 +367,13 @@ impl Smoothing<'_, '_> {
     }
 
     /// Whether a frequency leaves more than noise at the curve.
-    fn unexplained(&self, reduced: &Neighbourhoods<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
+    fn is_outlier(&self, reduced: &Neighbourhoods<'_, '_>, states: &[State], level: f64, i: usize) -> bool {
         let correction = modulus(&states[i]) - self.at[i].parameters[0].nominal;
         let Ok((x, _)) = reduced.model(i).respond_with_slope(&self.at[i], correction) else { return false };
-        self.is_unexplained(i, &x, level.max(MIN_NOISE_LEVEL))
+        self.is_beyond_noise(i, &x, level.max(MIN_NOISE_LEVEL))
     }
 
-    fn is_unexplained(&self, i: usize, x: &[c64], level: f64) -> bool {
+    fn is_beyond_noise(&self, i: usize, x: &[c64], level: f64) -> bool {
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
         relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > self.options.error
             && rms > MAX_RMS_MISFIT * level
@@ -450,7 +450,7 @@ impl Smoothing<'_, '_> {
         }
         line.on_path = true;
         line.status = Status::of([
-            (self.is_unexplained(i, &assessed.response, level), Status::Unexplained),
+            (self.is_beyond_noise(i, &assessed.response, level), Status::Unexplained),
             (ambiguous, Status::Ambiguous),
             (!fitted.converged, Status::Failed),
             (!bars.is_known(factor) || !bars.is_linear(), Status::NotIdentifiable),
@@ -464,14 +464,14 @@ impl Smoothing<'_, '_> {
     }
 
     fn curve(&self, fitted: Fitted) -> SmoothCurve {
-        let Fitted { observations, evidence, smoothed, converged, unexplained, .. } = fitted;
+        let Fitted { observations, evidence, smoothed, converged, outliers, .. } = fitted;
         let taken =
             observations.iter().zip(&smoothed.curve.variance).map(|(o, variance)| o.weight * variance);
         let parameters: f64 = taken.sum();
         let range = observations[observations.len() - 1].x - observations[0].x;
         let width_octaves = range / parameters / std::f64::consts::LN_2;
         let (level, real) = (smoothed.level, self.band.unknown.real);
-        SmoothCurve { parameters, width_octaves, converged, unexplained, observations, evidence, level, real }
+        SmoothCurve { parameters, width_octaves, converged, outliers, observations, evidence, level, real }
     }
 }
 
