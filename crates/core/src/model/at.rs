@@ -128,15 +128,15 @@ impl ModelAt<'_> {
         self.parameters.iter().any(|parameter| parameter.enters(term))
     }
 
-    /// The terms that an unknown enters.
-    pub(crate) fn terms_of(&self, unknown: usize) -> impl Iterator<Item = &Term> {
+    /// The terms that an unknown enters, with their numbers.
+    pub(crate) fn terms_of(&self, unknown: usize) -> impl Iterator<Item = (usize, &Term)> {
         let is_entered = move |(term, _): &(usize, &Term)| self.parameters[unknown].enters(*term);
-        self.model.terms().iter().enumerate().filter(is_entered).map(|(_, term)| term)
+        self.model.terms().iter().enumerate().filter(is_entered)
     }
 
     /// Whether an unknown enters stiffness alone.
     pub(crate) fn is_stiffness(&self, unknown: usize) -> bool {
-        self.terms_of(unknown).all(|term| term.role == Role::Stiffness)
+        self.terms_of(unknown).all(|(_, term)| term.role == Role::Stiffness)
     }
 
     /// The entries of D(c) on the model's pattern; `corrections[j]` is c_j.

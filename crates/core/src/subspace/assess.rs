@@ -169,7 +169,7 @@ impl Projection {
     /// θ_g of each A_{j,1}.
     pub(super) fn first_weights(&self, at: &ModelAt<'_>) -> Vec<Vec<c64>> {
         let first = |parameter: &ParameterAt| match parameter.coefficients.first() {
-            Some(first) => self.parts.weights(first),
+            Some(first) => self.parts.weights(first, at.frequency_hz),
             None => vec![c64::default(); self.parts.len()],
         };
         at.parameters.iter().map(first).collect()
@@ -218,14 +218,14 @@ pub(super) fn weights(small: &Projection, at: &ModelAt<'_>, correction: c64) -> 
 
 /// θ_g of D, ∂D/∂c and ∂²D/∂c² at the correction c of the first parameter.
 fn weights_to_second(small: &Projection, at: &ModelAt<'_>, correction: c64) -> [Vec<c64>; 3] {
-    let mut theta = small.parts.weights(&at.nominal);
+    let mut theta = small.parts.weights(&at.nominal, at.frequency_hz);
     let mut slope = vec![c64::default(); theta.len()];
     let mut second = slope.clone();
     // c^{q−1} for the q-th coefficient, and c^{q−2}: the first has none.
     let mut before = c64::default();
     let mut power = c64::new(1.0, 0.0);
     for (q, coefficient) in at.parameters.first().map_or(&[][..], |p| &p.coefficients).iter().enumerate() {
-        for (g, weight) in small.parts.weights(coefficient).into_iter().enumerate() {
+        for (g, weight) in small.parts.weights(coefficient, at.frequency_hz).into_iter().enumerate() {
             second[g] += ((q + 1) * q) as f64 * before * weight;
             slope[g] += (q + 1) as f64 * power * weight;
             theta[g] += power * correction * weight;

@@ -70,7 +70,7 @@ impl Projection {
     /// Estimates, not bounds, as those of [`Projection::assess`].
     pub fn changes(&self, point: &ChangePoint<'_>) -> Result<Changed, Breakdown> {
         let n = self.size;
-        let theta = self.parts.weights(&point.at.nominal);
+        let theta = self.parts.weights(&point.at.nominal, point.at.frequency_hz);
         let factor = self.factor(&theta)?;
         let mut given = self.load.clone();
         given.extend(self.sensors.iter().flatten().map(|&l| c64::new(l, 0.0)));
@@ -100,7 +100,7 @@ impl Projection {
             everywhere: vec![self.gain * residuals[0] / norms[0]],
         };
         for change in &point.changes {
-            let theta = self.parts.weights(change);
+            let theta = self.parts.weights(change, point.at.frequency_hz);
             let (matrix, change_image) = (self.combine(&theta), self.combine_images(&theta));
             // w_p, then u_{m,p} of each sensor.
             let mut block: Vec<c64> =

@@ -32,6 +32,7 @@ mod sketch;
 mod train;
 mod train_changes;
 mod trained_box;
+mod unknown_loss;
 
 pub use assess::Assessment;
 pub use changes::{ChangePoint, Changed};
@@ -48,3 +49,4 @@ pub use reduced::ReducedModel;
 pub use reduction::Subspace;
 pub use train::{Point, TrainOptions, Trained};
 pub use train_changes::ChangeOptions;
+pub(crate) use unknown_loss::UnknownLoss;

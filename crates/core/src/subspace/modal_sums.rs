@@ -35,7 +35,7 @@ impl Projection {
     /// [`NoConvergence`] where the real stiffness is indefinite, or a number is not finite.
     pub(crate) fn modal_sums(&self, at: &ModelAt<'_>) -> Result<ModalSums, NoConvergence> {
         let r = self.size;
-        let theta = self.parts.weights(&at.nominal);
+        let theta = self.parts.weights(&at.nominal, at.frequency_hz);
         let sum = |wanted: Role| {
             let role = |g: usize| at.model.terms()[self.parts.term(g)].role;
             let factor = |g: usize| (theta[g] / at.model.weight(wanted, at.frequency_hz)).re;
@@ -98,21 +98,24 @@ const DEFINITE_RTOL: f64 = 1e-24;
 impl ModalSums {
     /// 1/d_k.
     pub(crate) fn inverse(&self, at: &ModelAt<'_>) -> Vec<c64> {
-        self.diagonal(&at.nominal).iter().map(|d| d.inv()).collect()
+        self.diagonal(&at.nominal, at.frequency_hz).iter().map(|d| d.inv()).collect()
     }
 
     /// ∂(1/d_k)/∂p_j, `[j][k]`, from 1/d_k.
     pub(crate) fn slopes(&self, at: &ModelAt<'_>, inverse: &[c64]) -> Vec<Vec<c64>> {
         let of = |parameter: &ParameterAt| -> Vec<c64> {
-            let change = parameter.coefficients.first().map_or(Vec::new(), |first| self.diagonal(first));
+            let change = parameter
+                .coefficients
+                .first()
+                .map_or(Vec::new(), |first| self.diagonal(first, at.frequency_hz));
             change.iter().zip(inverse).map(|(s, inverse)| -s * inverse * inverse).collect()
         };
         at.parameters.iter().map(of).collect()
     }
 
     /// y_kᵀ (Σ θ_g S_g) y_k.
-    fn diagonal(&self, of: &Combination) -> Vec<c64> {
-        let theta = self.parts.weights(of);
+    fn diagonal(&self, of: &Combination, frequency_hz: f64) -> Vec<c64> {
+        let theta = self.parts.weights(of, frequency_hz);
         let mut d = vec![c64::default(); self.size];
         for (theta, diagonal) in theta.iter().zip(&self.diagonals).filter(|(t, _)| **t != c64::default()) {
             d.iter_mut().zip(diagonal).for_each(|(d, s)| *d += theta * s);

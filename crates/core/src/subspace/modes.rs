@@ -12,10 +12,12 @@
 //! $$ M \leftarrow M + \sum_m \kappa_m M_m \\, \ell_m \ell_m^T, \qquad M_m^{-1} = \overline{(\ell_m^T y_i)^2} $$
 //! is a mass at sensor m that the model does not have, as that of an accelerometer, over the apparent mass M_m of the modes there;
 //! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
-//! changes a known factor. What comes out is a reduced model like any other.
+//! changes a known factor;
+//! $$ p_j \leftarrow \operatorname{Re} p_j + i(1 + \epsilon) \operatorname{Im} p_j $$
+//! the loss factor of every unknown stiffness. What comes out is a reduced model like any other.
 
 use super::assess::{Solutions, weights};
-use super::{FactorError, Point, Projection};
+use super::{FactorError, Point, Projection, UnknownLoss};
 use crate::c64;
 use crate::model::{ModelAt, Role};
 use frfit_linalg::dense::NoConvergence;
@@ -61,6 +63,9 @@ pub(crate) struct Modes {
 pub(crate) struct ModalErrors {
     /// e of all natural frequencies: every stiffness is multiplied by exp(2e).
     pub scale: f64,
+    /// ε of the loss factors of unknowns, and of which.
+    pub loss: f64,
+    pub of_loss: Vec<UnknownLoss>,
     /// δ of natural frequencies and ε of loss factors, by [`Modes::of_error`]: the model with them has ω_i exp(δ) and η_i(1 + ε); a rigid body about ω_1 √(2δ).
     pub stiffness: Vec<f64>,
     /// κ_m of the mass at sensor m.
@@ -95,6 +100,8 @@ pub(crate) struct ErrorSlopes {
     pub(crate) slopes: Vec<Vec<c64>>,
     /// ∂x_m/∂e.
     pub(crate) scale: Vec<c64>,
+    /// ∂x_m/∂ε of the loss factors of unknowns; empty where none is in error.
+    pub(crate) loss: Vec<c64>,
     /// ∂x_m/∂δ_i and ∂x_m/∂ε_i, `[m][error]`.
     pub(crate) stiffness: Vec<Vec<c64>>,
     /// ∂x_m/∂κ_n, `[m][n]`.
@@ -115,6 +122,7 @@ impl ErrorSlopes {
         for (m, &share) in shares.iter().enumerate() {
             self.response[m] *= share;
             self.scale[m] *= share;
+            self.loss.get_mut(m).into_iter().for_each(|slope| *slope *= share);
             self.slopes.iter_mut().for_each(|of_parameter| of_parameter[m] *= share);
             for of_sensors in [
                 &mut self.stiffness,
@@ -128,6 +136,11 @@ impl ErrorSlopes {
             }
         }
         self
+    }
+
+    /// By what all modes have in common, at a sensor: e, and ε where it is an error.
+    pub(crate) fn in_common(&self, m: usize) -> impl Iterator<Item = c64> {
+        [&self.scale, &self.loss].into_iter().filter_map(move |of_sensors| of_sensors.get(m).copied())
     }
 }
 
@@ -294,7 +307,7 @@ impl Projection {
     /// This model with errors. Its residuals say how far a smaller model is from it, not how far it is from the full one.
     pub(crate) fn with_errors(&self, modes: &Modes, errors: &ModalErrors) -> Self {
         let r = self.size;
-        let mut corrected = Self { parts: self.parts.with_errors(&errors.factors), ..self.clone() };
+        let mut corrected = Self { parts: self.parts.with_errors(errors), ..self.clone() };
         let is_damped = |&g: &usize| modes.has_damping(g, &errors.stiffness);
         let damped: Vec<usize> = (0..self.matrices.len()).filter(is_damped).collect();
         for &g in &damped {
@@ -401,14 +414,20 @@ impl Projection {
         let is_stiffness = |g: usize| g >= modes.stiffness.len() || modes.is_stiffness(g);
         let of_scale = |(g, theta): (usize, &c64)| if is_stiffness(g) { 2.0 * theta } else { c64::default() };
         of_changes.push(solutions.theta.iter().enumerate().map(of_scale).collect());
+        let of_loss = |(g, theta): (usize, &c64)| self.parts.slope_by_loss(g, *theta, at.frequency_hz);
+        if !errors.of_loss.is_empty() {
+            of_changes.push(solutions.theta.iter().enumerate().map(of_loss).collect());
+        }
         of_changes.extend(errors.factors.iter().map(theta));
-        // Parameters, the scale, factors: every matrix is met once for all of them.
+        // Parameters, the scale, the loss factors, known factors: every matrix is met once for all of them.
         let mut slopes = solutions.slopes(self, &of_changes);
-        let of_factors = slopes.split_off(at.parameters.len() + 1);
+        let of_factors = slopes.split_off(of_changes.len() - errors.factors.len());
+        let loss = if errors.of_loss.is_empty() { Vec::new() } else { slopes.pop().unwrap_or_default() };
         let scale = slopes.pop().unwrap_or_default();
         let factors = |m: usize| of_factors.iter().map(|of_factor| of_factor[m]).collect();
         Ok(ErrorSlopes {
             scale,
+            loss,
             slopes,
             stiffness: by_sensor.iter().map(of_stiffness).collect(),
             masses: duals.iter().map(masses).collect(),
@@ -695,6 +714,8 @@ mod tests {
         let modes = whole.modes(&at, c64::default(), omega_rad_s(100.0), 6).unwrap();
         let errors = ModalErrors {
             scale: 0.0,
+            loss: 0.0,
+            of_loss: Vec::new(),
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![kilograms / modes.apparent_mass[0], 0.0],
             gains: vec![0.0; 3],
@@ -737,6 +758,8 @@ mod tests {
         let of = |term, part| FactorError { term, part, error: 0.0 };
         let mut errors = ModalErrors {
             scale: 0.0,
+            loss: 0.0,
+            of_loss: Vec::new(),
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![0.0; 2],
             gains: vec![0.0; 3],
@@ -771,6 +794,8 @@ mod tests {
         // Somewhere with errors of every kind.
         errors.stiffness.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
         errors.scale = 0.03;
+        errors.loss = 0.1;
+        errors.of_loss = vec![UnknownLoss { terms: vec![1], loss_factors: vec![(9.0, 0.2)] }];
         errors.shape[1][2] = 0.05;
         errors.masses[0] = 0.01;
         errors.load[3] = -0.04;
@@ -805,6 +830,9 @@ mod tests {
         let mut moved = errors.clone();
         moved.scale += step;
         check(&moved, &|slopes, m| slopes.scale[m]);
+        let mut moved = errors.clone();
+        moved.loss += step;
+        check(&moved, &|slopes, m| slopes.loss[m]);
         for t in 0..3 {
             let mut moved = errors.clone();
             moved.factors[t].error += step;

@@ -1,6 +1,6 @@
 //! D(ω, c) as a combination of real matrices: each term is one, or two where its values are complex.
 
-use super::FactorError;
+use super::{FactorError, ModalErrors, UnknownLoss};
 use crate::c64;
 use crate::model::{Combination, DynamicStiffness, FactorPart, WeightedTerm};
 use frfit_linalg::sparse::Part;
@@ -11,6 +11,9 @@ pub(super) struct Parts {
     each: Vec<(usize, Part)>,
     /// Errors of known factors, which are in every θ_g.
     errors: Vec<FactorError>,
+    /// ε of the loss factors of unknowns, and of which.
+    loss: f64,
+    of_loss: Vec<UnknownLoss>,
 }
 
 impl Parts {
@@ -19,12 +22,13 @@ impl Parts {
             let imaginary = t.matrix.is_complex().then_some((term, Part::Im));
             std::iter::once((term, Part::Re)).chain(imaginary)
         });
-        Self { each: parts.collect(), errors: Vec::new() }
+        Self { each: parts.collect(), errors: Vec::new(), loss: 0.0, of_loss: Vec::new() }
     }
 
-    /// The same with errors of known factors.
-    pub(super) fn with_errors(&self, errors: &[FactorError]) -> Self {
-        Self { each: self.each.clone(), errors: errors.to_vec() }
+    /// The same with errors of known factors and of the loss factors of unknowns.
+    pub(super) fn with_errors(&self, errors: &ModalErrors) -> Self {
+        let ModalErrors { factors, loss, of_loss, .. } = errors;
+        Self { each: self.each.clone(), errors: factors.clone(), loss: *loss, of_loss: of_loss.clone() }
     }
 
     /// Whether a part is a term's real matrix.
@@ -52,12 +56,15 @@ impl Parts {
         model.terms()[term].matrix.multiply_add_real(part, x, out);
     }
 
-    /// θ_g of a combination of terms: a complex matrix is S_re + i S_im.
-    pub(super) fn weights(&self, combination: &Combination) -> Vec<c64> {
+    /// θ_g of a combination of terms at a frequency: a complex matrix is S_re + i S_im.
+    pub(super) fn weights(&self, combination: &Combination, frequency_hz: f64) -> Vec<c64> {
         let mut weights = vec![c64::default(); self.len()];
         for &WeightedTerm { term, weight: coefficient } in &combination.parts {
             let of_term = self.errors.iter().filter(|error| error.term == term);
             let coefficient = of_term.fold(coefficient, |value, error| error.applied_to(value));
+            let of_loss = self.of_loss.iter().filter(|one| one.terms.contains(&term));
+            let coefficient =
+                of_loss.fold(coefficient, |value, one| value * one.factor(self.loss, frequency_hz));
             for (weight, &(own, part)) in weights.iter_mut().zip(&self.each) {
                 if own == term {
                     *weight += coefficient * unit(part);
@@ -65,6 +72,12 @@ impl Parts {
             }
         }
         weights
+    }
+
+    /// ∂θ_g/∂ε by the error of the loss factors of unknowns that is in θ_g.
+    pub(super) fn slope_by_loss(&self, g: usize, theta: c64, frequency_hz: f64) -> c64 {
+        let of_term = self.of_loss.iter().filter(|one| one.terms.contains(&self.each[g].0));
+        of_term.map(|one| theta * one.slope_over_factor(self.loss, frequency_hz)).sum()
     }
 
     /// ∂θ_g by an error of a known factor that is in θ_g.

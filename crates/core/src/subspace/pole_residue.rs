@@ -2,7 +2,7 @@
 
 use super::{Projection, Subspace};
 use crate::c64;
-use crate::model::ModelAt;
+use crate::model::{Combination, ModelAt};
 use frfit_linalg::dense::{Eigen, Lu, Matrix, NoConvergence, eigen};
 use frfit_linalg::vector::{norm, transpose_dot};
 
@@ -39,8 +39,9 @@ impl Projection {
             return Ok(None);
         };
         let n = self.size;
-        let factor = self.factor(&self.parts.weights(&at.nominal)).map_err(|_| NoConvergence)?;
-        let change = self.combine(&self.parts.weights(change));
+        let weights = |of: &Combination| self.parts.weights(of, at.frequency_hz);
+        let factor = self.factor(&weights(&at.nominal)).map_err(|_| NoConvergence)?;
+        let change = self.combine(&weights(change));
         let forces = self.sensors.iter().map(|l| l.iter().map(|&l| c64::new(l, 0.0)).collect::<Vec<_>>());
         let mut block: Vec<c64> = (0..n).flat_map(|j| change.column(j)).copied().collect();
         block.extend(&self.load);

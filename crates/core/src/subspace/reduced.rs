@@ -34,7 +34,7 @@ impl Projection {
 
 impl<'a> ReducedModel<'a> {
     fn new(small: &'a Projection, at: &ModelAt<'_>) -> Result<Self, Breakdown> {
-        let reduced = |combination: &Combination| small.combine(&small.parts.weights(combination));
+        let reduced = |of: &Combination| small.combine(&small.parts.weights(of, at.frequency_hz));
         let nominal = reduced(&at.nominal);
         let factor = Lu::new(&nominal).map_err(|NoConvergence| Breakdown::NotFinite)?;
         Ok(Self {

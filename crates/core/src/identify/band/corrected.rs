@@ -198,7 +198,7 @@ fn widen(
         };
         let slopes = model.respond_with_error_slopes((modes, values), &at[i], correction).ok()?;
         let n = modes.omega_rad_s.len();
-        let first_error = channels.count() + usize::from(errors.of_scale().is_some());
+        let first_error = channels.count() + errors.in_common();
         let first_factor = first_error + modes.of_error.len();
         let first_mass = first_factor + values.factors.len();
         let first_gain = first_mass + values.masses.len();
@@ -210,10 +210,9 @@ fn widen(
         for (m, sigma) in sigma[i].iter().enumerate().filter(|(_, sigma)| sigma.is_finite()) {
             let along = slopes.slopes[0][m].conj() / (sigma * sigma);
             weight += slopes.slopes[0][m].norm_sqr() / (sigma * sigma);
-            let of_channels: Vec<c64> =
-                channels.slopes(slopes.response[m], m, omega_rad_s(at[i].frequency_hz)).collect();
-            let scale = if errors.of_scale().is_some() { &slopes.scale[m..=m] } else { &[] };
-            let before_errors = [of_channels.as_slice(), scale].concat();
+            let of_channels = channels.slopes(slopes.response[m], m, omega_rad_s(at[i].frequency_hz));
+            let in_common = slopes.in_common(m).take(errors.in_common());
+            let before_errors: Vec<c64> = of_channels.into_iter().chain(in_common).collect();
             let own = [
                 (0, &before_errors),
                 (first_error, &slopes.stiffness[m]),

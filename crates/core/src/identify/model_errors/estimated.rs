@@ -21,7 +21,7 @@ const LISTED_ABOVE_BAND: f64 = 1.2;
 pub(in crate::identify) struct Estimated {
     pub(in crate::identify) modes: Modes,
     pub(in crate::identify) errors: ModalErrors,
-    /// Of θ, e, δ and ε (own and common together), ν and Δη, κ, g, then a of the load and of each sensor: n × n.
+    /// Of θ, e, ε of the loss factors of unknowns, δ and ε of modes (own and common together), ν and Δη, κ, g, then a of the load and of each sensor: n × n.
     pub(in crate::identify) covariance: Vec<f64>,
     pub(in crate::identify) sizes: [f64; 3],
     /// χ² at σ times `level`, and how many numbers it has.
@@ -201,9 +201,14 @@ impl Estimated {
         (!self.modes.omega_rad_s.is_empty()).then(|| self.curves.count())
     }
 
+    /// Coordinates of what all modes have in common: e, and ε of the loss factors of unknowns where these are in error.
+    pub(in crate::identify) fn in_common(&self) -> usize {
+        usize::from(self.of_scale().is_some()) + usize::from(!self.errors.of_loss.is_empty())
+    }
+
     /// The first coordinate of the errors of single modes.
     pub(super) fn first_of_modes(&self) -> usize {
-        self.curves.count() + usize::from(self.of_scale().is_some())
+        self.curves.count() + self.in_common()
     }
 
     /// Coordinates: θ, and the errors.

@@ -32,7 +32,7 @@ pub(super) fn add_local_compliance(
     let at = (fitting.point)(line, &values)?.at;
     let stiffnesses = (0..values.len()).filter(|&j| at.is_stiffness(j));
     let (local, around): (Vec<usize>, Vec<usize>) =
-        stiffnesses.partition(|&j| at.terms_of(j).all(|term| is_local(&term.matrix)));
+        stiffnesses.partition(|&j| at.terms_of(j).all(|(_, term)| is_local(&term.matrix)));
     let known =
         at.model.terms().iter().enumerate().filter(|(term, one)| {
             one.role == Role::Stiffness && !at.is_unknown(*term) && !is_local(&one.matrix)

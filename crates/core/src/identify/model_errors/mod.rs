@@ -42,7 +42,7 @@ use crate::for_each::ForEach;
 use crate::frfs::Noise;
 use crate::median::median;
 use crate::model::{FactorPart, ModelAt, Role};
-use crate::subspace::{Modes, Point, Projection};
+use crate::subspace::{ModalErrors, Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
 pub(super) use estimated::{Estimated, covariance};
 pub use found::{
@@ -590,8 +590,8 @@ struct Search<'t, 'a> {
     values_of_modes: Vec<c64>,
     /// Known factors that may be in error.
     factors: Vec<FactorPrior>,
-    /// Unknown stiffnesses with damping, whose loss factors may have an error in common.
-    damped: Vec<usize>,
+    /// Unknown stiffnesses with damping, whose loss factors may have an error in common, and the terms of each.
+    damped: Vec<(usize, Vec<usize>)>,
     /// What lies between the meshes, where there are two.
     mesh: Option<BetweenMeshes>,
 }
@@ -612,10 +612,10 @@ impl<'t, 'a> Search<'t, 'a> {
         let Point { at, correction } = data.on(curves, theta, middle(&lines))?;
         let highest = *data.omegas.last()?;
         let modes = model.modes(&at, correction, MODES_ABOVE_BAND * highest, MAX_MODES).ok()?;
-        // Curves that are the answer are judged by the response on the corrected model, whose errors are those of modes.
-        let is_damped = |&j: &usize| !data.wants_curves && values_of_modes[j].im != 0.0 && at.is_stiffness(j);
+        let is_damped = |&j: &usize| values_of_modes[j].im != 0.0 && at.is_stiffness(j);
+        let with_terms = |j: usize| (j, at.terms_of(j).map(|(term, _)| term).collect());
         Some(Self {
-            damped: (0..values_of_modes.len()).filter(is_damped).collect(),
+            damped: (0..values_of_modes.len()).filter(is_damped).map(with_terms).collect(),
             model,
             data,
             curves,
@@ -689,9 +689,10 @@ impl<'t, 'a> Search<'t, 'a> {
                 let errors = data.explain(&held, place, &ADDED_NOISE[FIRST_LEVELS..])?;
                 data.settled(fitting, errors.found.place, errors.sizes, errors.level)
             };
-            let is_better = |other: &Explained| other.evidence < best.evidence - MIN_GAIN_ALONG_SCALE;
-            // Far along it the errors are those of another model.
-            let are_small = |other: &Explained| whole.are_small(&other.found.place, data.given_sizes);
+            // Far along it the errors are those of another model, which has to explain the band clearly better.
+            let are_small = |one: &Explained| whole.are_small(&one.found.place, data.given_sizes);
+            let gain = if are_small(best) { MIN_GAIN_ALONG_SCALE } else { -2.0 * RIGHT_MODEL_NATS };
+            let is_better = |other: &Explained| other.evidence < best.evidence - gain;
             self.near(place, best.kinds, searched).filter(|other| is_better(other) && are_small(other))
         };
         for unknown in self.curves.smooth() {
@@ -1101,18 +1102,23 @@ impl<'a> Measured<'_, 'a> {
     fn estimated(&self, fitting: &Fitting<'_, '_>, at: Explained, covariance: &[f64]) -> Estimated {
         let Explained { found, sizes, level, rest, .. } = at;
         let n = fitting.count();
-        let errors = fitting.errors(&found.place);
+        let loss = fitting.of_unknown_loss();
+        let errors = ModalErrors {
+            loss: loss.map_or(0.0, |i| found.place[i]),
+            of_loss: fitting.unknown_losses(&found.place),
+            ..fitting.errors(&found.place)
+        };
         let first = fitting.first_own();
         let modes = errors.stiffness.len();
         let theta = fitting.curves.count();
-        // θ, e, then the errors of single modes and what follows them.
-        let scale = fitting.of_scale();
-        let before_errors = theta + usize::from(scale.is_some());
+        // θ, e, ε of the loss factors of unknowns, then the errors of single modes and what follows them.
+        let first_kept: Vec<usize> = (0..theta).chain(fitting.of_scale()).chain(loss).collect();
+        let before_errors = first_kept.len();
         let kept = n - first + before_errors;
         let of = |a: usize, b: usize| covariance[a * n + b];
-        // What of each of the search's coordinates is in θ, e, δ_i, ν_t, a_mi.
+        // What of each of the search's coordinates is in θ, e, ε, δ_i, ν_t, a_mi.
         let parts = |a: usize| -> Vec<(usize, f64)> {
-            let Some(error) = a.checked_sub(before_errors) else { return vec![(a, 1.0)] };
+            let Some(error) = a.checked_sub(before_errors) else { return vec![(first_kept[a], 1.0)] };
             let own = std::iter::once((first + error, 1.0));
             let shared = (theta..first).filter(|_| error < modes);
             let of_mesh = fitting.of_mesh().filter(|_| error >= modes);

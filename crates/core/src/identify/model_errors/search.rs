@@ -8,9 +8,10 @@ use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
 use crate::model::FactorPart;
-use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection};
+use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection, UnknownLoss};
 use frfit_linalg::column_block::times_transpose;
 use frfit_linalg::dense::Cholesky;
+use std::f64::consts::TAU;
 
 /// The model at a line with these values of its unknowns.
 pub(in crate::identify) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
@@ -33,8 +34,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) highest_rad_s: f64,
     /// Known factors that may be in error.
     pub(super) factors: &'t [FactorPrior],
-    /// Unknown stiffnesses with damping, whose loss factors may have an error in common.
-    pub(super) damped: &'t [usize],
+    /// Unknown stiffnesses with damping, whose loss factors may have an error in common, and the terms of each.
+    pub(super) damped: &'t [(usize, Vec<usize>)],
     /// Errors that are searched beside those of stiffness, shapes and factors.
     pub(super) kinds: Kinds,
     /// What lies between the meshes, where there are two; none without modes.
@@ -264,6 +265,9 @@ impl Fitting<'_, '_> {
                 false => parts[first + COMMON_FREQUENCY_PARTS..][..2].copy_from_slice(&[1.0, support]),
             }
         }
+        if let Some(place) = self.of_unknown_loss() {
+            parts[place - self.curves.count()] = 0.0;
+        }
         if let (Some(mesh), Some(last)) = (self.mesh, parts.last_mut()) {
             *last = mesh.stiffness[i];
         }
@@ -272,18 +276,21 @@ impl Fitting<'_, '_> {
 
     /// The place of the error that all loss factors of unknown stiffness have in common, where there is one: it is one of the unknowns, p → Re p + i(1 + ε) Im p, and not of the modes that are
     /// there. Beyond these a coarse mesh is wrong, and what it lacks would be taken for a difference between the loss factor of the material and that of the modes.
-    fn of_unknown_loss(&self) -> Option<usize> {
+    pub(super) fn of_unknown_loss(&self) -> Option<usize> {
         let group = self.modes.groups().checked_sub(1).filter(|_| !self.damped.is_empty())?;
         Some(self.curves.count() + COMMON_PARTS * group + COMMON_FREQUENCY_PARTS)
     }
 
-    /// The model with the errors at a place, but for those that are the unknowns'.
-    fn model_at(&self, place: &[f64]) -> (ModalErrors, Projection) {
-        let mut of_model = place.to_vec();
-        self.of_unknown_loss().into_iter().for_each(|i| of_model[i] = 0.0);
-        let errors = self.errors(&of_model);
-        let model = self.model.with_errors(self.modes, &errors);
-        (errors, model)
+    /// Unknowns whose loss factors are in error, with those at a place.
+    pub(super) fn unknown_losses(&self, place: &[f64]) -> Vec<UnknownLoss> {
+        let values = |line: usize| self.curves.values(place, line, self.omegas[line]);
+        let all: Vec<(f64, Vec<c64>)> =
+            (0..self.omegas.len()).filter_map(|i| Some((self.omegas[i] / TAU, values(i)?.0))).collect();
+        let of_unknown = |(j, terms): &(usize, Vec<usize>)| UnknownLoss {
+            terms: terms.clone(),
+            loss_factors: all.iter().map(|(hz, values)| (*hz, values[*j].im / values[*j].re)).collect(),
+        };
+        self.damped.iter().filter(|_| self.of_unknown_loss().is_some()).map(of_unknown).collect()
     }
 
     /// The unknowns at a line with their errors, and their slopes.
@@ -292,10 +299,10 @@ impl Fitting<'_, '_> {
         let mut of_loss = Vec::new();
         if let Some(error) = self.of_unknown_loss().map(|i| place[i]) {
             let with_error = |value: c64| c64::new(value.re, (1.0 + error) * value.im);
-            let is_damped = |j: &usize| self.damped.contains(j);
-            let slopes = of_theta.iter_mut().filter(|(j, _)| is_damped(j));
+            let is_damped = |j: usize| self.damped.iter().any(|(own, _)| *own == j);
+            let slopes = of_theta.iter_mut().filter(|(j, _)| is_damped(*j));
             slopes.for_each(|(_, slope)| *slope = with_error(*slope));
-            for &j in self.damped {
+            for &(j, _) in self.damped {
                 of_loss.push((j, c64::new(0.0, values[j].im)));
                 values[j] = with_error(values[j]);
             }
@@ -451,6 +458,9 @@ impl Fitting<'_, '_> {
             |(prior, &error): (&FactorPrior, &f64)| FactorError { term: prior.term, part: prior.part, error };
         ModalErrors {
             scale: self.of_scale().map_or(0.0, |scale| place[scale]),
+            // Of the unknowns here, not of the model.
+            loss: 0.0,
+            of_loss: Vec::new(),
             stiffness: (0..self.stiffness_errors()).map(|i| common(i) + place[own + i]).collect(),
             masses: place[self.masses()].to_vec(),
             gains: place[self.gains()].to_vec(),
@@ -598,7 +608,8 @@ impl Fitting<'_, '_> {
     /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
     pub(super) fn normal(&self, place: &[f64], sigma: &[Vec<f64>]) -> Option<Normal> {
         let n = self.count();
-        let (errors, model) = self.model_at(place);
+        let errors = self.errors(place);
+        let model = self.model.with_errors(self.modes, &errors);
         let common: Vec<Vec<f64>> = (0..self.stiffness_errors()).map(|i| self.common(i)).collect();
         // The coordinates on which the response at each sensor hangs.
         let moving: Vec<usize> = (0..self.shared()).filter(|&i| self.moves(i)).collect();
@@ -675,7 +686,7 @@ impl Fitting<'_, '_> {
 
     /// x_m at each of the lines; `None` where it is not finite.
     pub(super) fn responses(&self, place: &[f64]) -> Option<Vec<Vec<c64>>> {
-        let (_, model) = self.model_at(place);
+        let model = self.model.with_errors(self.modes, &self.errors(place));
         let at_line = |k: usize| -> Option<Vec<c64>> {
             let i = self.lines[k];
             let (values, _) = self.unknowns_at(place, i)?;
