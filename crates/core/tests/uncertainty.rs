@@ -288,9 +288,9 @@ fn noise_of_few_averages_leaves_a_right_model_right() {
                 off.abs() <= 2.0 * line.uncertainty().unwrap().storage_std
             };
             let share = ok.iter().filter(covers).count() as f64 / ok.len() as f64;
-            // The variance of a line is known to a seventh.
+            // The variance of a line is known to a seventh, and bars hold errors that noise hides.
             assert!(
-                10 * ok.len() > 9 * lines && (0.91..0.985).contains(&share),
+                10 * ok.len() > 9 * lines && (0.91..0.99).contains(&share),
                 "{at}: {} ok, {share}",
                 ok.len()
             );

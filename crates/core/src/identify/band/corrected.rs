@@ -13,9 +13,9 @@ use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::Context;
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{
-    Coarser, Curve, Curves, Estimated, Measured, NoiseScale, PointAt, Spline,
+    AveragedModel, Coarser, Curve, Curves, Estimated, Explanation, Measured, NoiseScale, PointAt, Spline,
+    averaged_over_small_errors, covariance, estimate,
 };
-use crate::identify::model_errors::{Explanation, covariance, estimate};
 use crate::identify::noise::{levels, without};
 use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::{Line, Status};
@@ -43,9 +43,16 @@ pub(super) fn correct<'a>(
     let point = point(at);
     let measured = weights.of(band, options, &point, &found);
     let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, context.for_each);
+    let small = match &explanation {
+        Explanation::RightModel => small_errors(reduced.whole(), &measured, &curves, context),
+        _ => None,
+    };
     let found = BandOutcome { leverage, ..found };
     let errors = match explanation {
-        Explanation::RightModel | Explanation::Averaged(_) => return found,
+        Explanation::RightModel => {
+            let Some(small) = small else { return found };
+            return with_small_errors(found, small, at, reduced.whole(), &weights.sigma, context);
+        }
         Explanation::OtherModel => return BandOutcome { other_model: true, ..found },
         Explanation::Errors(errors) => *errors,
     };
@@ -57,6 +64,32 @@ pub(super) fn correct<'a>(
     let mut work = found.work;
     work += reduced.work().since(before);
     BandOutcome { work, ..outcome }
+}
+
+/// Errors of a right model that are too small to be seen. Where channels have an unknown scale or delay, its bars are those of the noise.
+fn small_errors(
+    whole: &Projection,
+    measured: &Measured<'_, '_>,
+    curves: &Curves,
+    context: Context<'_>,
+) -> Option<AveragedModel> {
+    let start = measured.starts(curves).into_iter().next().filter(|_| curves.channels().count() == 0)?;
+    averaged_over_small_errors(whole, measured, curves, &start, context.for_each)
+}
+
+/// The answers of a right model, with such errors in their bars.
+fn with_small_errors(
+    found: BandOutcome,
+    small: AveragedModel,
+    at: &[ModelAt<'_>],
+    whole: &Projection,
+    sigma: &[Vec<f64>],
+    context: Context<'_>,
+) -> BandOutcome {
+    let mut outcome = found;
+    let corrected = Corrected::new(whole, &small.estimated.modes, &small.estimated.errors);
+    widen(&mut outcome, &small.estimated, at, (whole, &corrected), sigma, context);
+    BandOutcome { small_errors: Some(small), ..outcome }
 }
 
 /// The band on a model that is corrected for its errors, with their effect on its bars; what was found before says of which sensors nothing is asked.
@@ -80,7 +113,9 @@ pub(super) fn on_corrected<'a>(
         outcome = outcome.with_fitted(fitted, band);
     }
     let sigma = without(&standard_deviations(band.measured, band.noise), &left_out);
-    errors.bars_over_noise = widen(&mut outcome, &errors, at, reduced, &sigma, context);
+    let corrected = reduced.corrected().map(|corrected| (reduced.whole(), corrected));
+    errors.bars_over_noise =
+        corrected.and_then(|corrected| widen(&mut outcome, &errors, at, corrected, &sigma, context));
     outcome.other_model = !errors.contradicted_assumptions.is_empty();
     outcome.model_errors = Some(errors);
     outcome
@@ -180,12 +215,11 @@ fn widen(
     outcome: &mut BandOutcome,
     errors: &Estimated,
     at: &[ModelAt<'_>],
-    reduced: &Neighbourhoods<'_, '_>,
+    (whole, Corrected { modes, errors: values, model }): (&Projection, &Corrected),
     sigma: &[Vec<f64>],
     context: Context<'_>,
 ) -> Option<f64> {
-    let Corrected { modes, errors: values, model } = reduced.corrected()?;
-    let near_path = near_path((reduced.whole(), modes, values), at, &outcome.lines);
+    let near_path = near_path((whole, modes, values), at, &outcome.lines);
     let covariances = errors.of_channels_and_errors();
     let channels = errors.channels();
     let lines = &outcome.lines;

@@ -102,6 +102,7 @@ pub(super) fn identify<'a>(
         fit,
         sensors,
         model_errors: None,
+        small_errors: None,
         leverage: Vec::new(),
         other_model: false,
         about: None,

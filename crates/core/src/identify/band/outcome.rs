@@ -3,7 +3,7 @@
 use super::fit::{excess_of_neighbours, goodness};
 use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit, is_unexplained_stretch};
 use crate::identify::measured::Band;
-use crate::identify::model_errors::{Estimated, Leverage};
+use crate::identify::model_errors::{AveragedModel, Estimated, Leverage};
 use crate::identify::noise::{NoiseLevel, freedom};
 use crate::identify::outcome::{Line, Status};
 use crate::response::Work;
@@ -27,6 +27,8 @@ pub(in crate::identify) struct BandOutcome {
     pub sensors: Vec<SensorFit>,
     /// Errors of the model that were corrected for; `None` where none were found.
     pub model_errors: Option<Estimated>,
+    /// Errors of a right model that are too small to be seen, and are in its bars.
+    pub small_errors: Option<AveragedModel>,
     /// How far errors of known factors move the unknown.
     pub leverage: Vec<Leverage>,
     /// Whether a model with large errors explains the band far better: it is another one.
@@ -69,6 +71,12 @@ impl BandOutcome {
         let each = freedom(counted, band.unknown.real);
         self.fit = goodness(&self.lines, each, fitted, &self.noise, band);
         self
+    }
+
+    /// Errors that are in the bars.
+    pub(super) fn errors_in_bars(&self) -> Option<&Estimated> {
+        let small = self.small_errors.as_ref().map(|small| &small.estimated);
+        self.model_errors.as_ref().or(small)
     }
 
     /// What the response has beside noise and errors of the model, relative to itself.

@@ -121,7 +121,7 @@ pub(in crate::identify) fn identify_smooth<'a>(
         });
     };
     let noise = smoothing.noise(&free.noise, fitted.smoothed.level);
-    let split = free.model_errors.as_ref().and_then(Estimated::split);
+    let split = free.errors_in_bars().and_then(Estimated::split);
     let judged: Vec<Judged> = map(context.for_each, at.len(), |i| {
         smoothing.judged(&fitted, &noise, &reduced, i, (&free, split.as_ref()))
     });
@@ -418,15 +418,16 @@ impl Smoothing<'_, '_> {
         let second = second.map_or(f64::INFINITY, |second| weighed(&second, &self.sigma[i]));
         let part_std = factor.norm() * variance.sqrt();
         let mut bars = Uncertainty::new(factor, self.band.unknown.real, part_std, second, level);
-        let (errors, frequency_hz) = (per_frequency.model_errors.as_ref(), self.band.frequency_hz[i]);
-        if let Some([real, imaginary, both]) =
-            errors.and_then(|errors| errors.covariance_at(0, i, frequency_hz))
-        {
-            // What the errors of the model add to the noise that is in the bars already.
-            let noise = bars.storage_std.powi(2);
-            bars.widen(factor, [(real - noise).max(0.0), (imaginary - noise).max(0.0), both]);
-        }
-        if let Some((errors, split)) = errors.zip(split)
+        let frequency_hz = self.band.frequency_hz[i];
+        // What the errors of the model add to the noise that is in the bars already.
+        let noise = bars.storage_std.powi(2);
+        let errors = per_frequency.model_errors.as_ref();
+        let of_errors = errors.and_then(|errors| errors.covariance_at(0, i, frequency_hz));
+        let of_errors = of_errors.map(|[re, im, both]| [(re - noise).max(0.0), (im - noise).max(0.0), both]);
+        let small = per_frequency.small_errors.as_ref();
+        let of_small = small.and_then(|small| small.beside_noise_at(0, i, frequency_hz));
+        of_errors.or(of_small).into_iter().for_each(|added| bars.widen(factor, added));
+        if let Some((errors, split)) = per_frequency.errors_in_bars().zip(split)
             && let Some(slopes) = errors.real_slopes(0, i, frequency_hz)
         {
             bars.divide(split.of(&slopes));

@@ -127,8 +127,13 @@ impl Estimated {
         line: usize,
         frequency_hz: f64,
     ) -> Option<[f64; 3]> {
-        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
+        let slopes = self.slopes(unknown, line, frequency_hz)?;
         Some(covariance(&self.block(0..slopes.len()), &slopes))
+    }
+
+    /// ∂p/∂θ of an unknown at a line.
+    pub(super) fn slopes(&self, unknown: usize, line: usize, frequency_hz: f64) -> Option<Vec<c64>> {
+        self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))
     }
 
     /// The covariance of some coordinates, column after column.
@@ -176,8 +181,7 @@ impl Estimated {
         line: usize,
         frequency_hz: f64,
     ) -> Option<Vec<f64>> {
-        let slopes = self.curves.slopes(self.theta(), unknown, line, omega_rad_s(frequency_hz))?;
-        Some(slopes.iter().map(|slope| slope.re).collect())
+        Some(self.slopes(unknown, line, frequency_hz)?.iter().map(|slope| slope.re).collect())
     }
 
     /// All unknowns at a line.

@@ -302,8 +302,6 @@ type Fit<'f> = &'f dyn Fn(&Fitting<'_, '_>, Place) -> Option<Explained>;
 pub(super) enum Explanation {
     /// A right model does as well as one with errors.
     RightModel,
-    /// The same, with what small errors may do in its covariance.
-    Averaged(Box<Estimated>),
     /// One with small errors.
     Errors(Box<Estimated>),
     /// One whose errors are no small ones: it is another model.
@@ -467,6 +465,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
 }
 
 /// A right model whose covariance holds what errors too small to be seen may do.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct AveragedModel {
     pub(super) estimated: Estimated,
     /// The covariance of θ by the noise alone.
@@ -482,6 +481,12 @@ impl AveragedModel {
             .zip(noise)
             .map(|(own, noise)| own.iter().zip(noise).map(|(a, b)| a - b).collect())
             .collect()
+    }
+
+    /// What they add to the variances of the real and the imaginary part of an unknown at a line, and to their covariance.
+    pub(super) fn beside_noise_at(&self, unknown: usize, line: usize, frequency_hz: f64) -> Option<[f64; 3]> {
+        let slopes = self.estimated.slopes(unknown, line, frequency_hz)?;
+        Some(covariance(&self.beside_noise().concat(), &slopes))
     }
 }
 
@@ -796,7 +801,7 @@ impl<'a> Measured<'_, 'a> {
     }
 
     /// θ to begin with: through the values of each frequency alone, and the nominal.
-    fn starts(&self, curves: &Curves) -> Vec<Vec<f64>> {
+    pub(super) fn starts(&self, curves: &Curves) -> Vec<Vec<f64>> {
         let answered = |j: usize| -> Vec<(usize, c64, f64)> {
             let one = |(i, line): (usize, &Line)| {
                 let value = line.values[j].value.filter(|value| line.on_path && value.re > 0.0)?;

@@ -34,13 +34,13 @@ impl Task<'_, '_> {
         if self.options.model_errors == ModelErrors::None && !is_smooth {
             return found;
         }
-        let (explanation, leverage) = self.errors(reduced, solution, &found);
+        let (explanation, small, leverage) = self.errors(reduced, solution, &found);
         found.leverage = leverage;
         let errors = match explanation {
             // No smooth curve was found.
             Explanation::RightModel if is_smooth => return found.of_other_model(),
-            Explanation::RightModel => return found,
-            Explanation::Averaged(errors) => {
+            Explanation::RightModel => {
+                let Some(errors) = small else { return found };
                 reduced.correct(&errors.modes, &errors.errors, self.context.for_each);
                 let judged = self.judge(reduced, solution, Some(&errors));
                 return SeveralOutcome { leverage: found.leverage, ..judged };
@@ -114,12 +114,13 @@ impl Task<'_, '_> {
         }
     }
 
+    /// What explains the band; of a right model also errors too small to be seen that its bars hold; how far known factors move the unknowns.
     fn errors(
         &self,
         reduced: &Neighbourhoods<'_>,
         solution: &BandSolution,
         found: &SeveralOutcome,
-    ) -> (Explanation, Vec<Leverage>) {
+    ) -> (Explanation, Option<Estimated>, Vec<Leverage>) {
         let unknowns = self.problem.unknowns;
         // A law that is wrong is no error of the model: smooth curves in place of laws say whether there are any.
         let is_law = |j: usize| matches!(unknowns[j].varies, Variation::Law(_));
@@ -177,10 +178,10 @@ impl Task<'_, '_> {
         let errors = match explanation {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
             Explanation::RightModel => {
-                let averaged = || self.averaged(reduced, solution, &measured, &curves(true));
-                return (averaged().map_or(Explanation::RightModel, Explanation::Averaged), leverage);
+                let small = self.averaged(reduced, solution, &measured, &curves(true));
+                return (Explanation::RightModel, small, leverage);
             }
-            explanation => return (explanation, leverage),
+            explanation => return (explanation, None, leverage),
         };
         let with = |of_law: &dyn Fn(&Own) -> Vec<f64>| -> Vec<f64> {
             let theta = |j: usize| match of(j).filter(|_| is_law(j)) {
@@ -203,7 +204,7 @@ impl Task<'_, '_> {
         );
         let explanation =
             with_laws.map_or(Explanation::OtherModel, |found| Explanation::Errors(Box::new(found)));
-        (explanation, leverage)
+        (explanation, None, leverage)
     }
 
     /// A right model whose error bars hold small errors, where every unknown has numbers that hold for the band.
@@ -213,7 +214,7 @@ impl Task<'_, '_> {
         solution: &BandSolution,
         measured: &Measured<'_, '_>,
         curves: &Curves,
-    ) -> Option<Box<Estimated>> {
+    ) -> Option<Estimated> {
         let mut theta = vec![0.0; curves.count()];
         let coordinates = &solution.coordinates;
         let mut set = |at: Range<usize>, from: Range<usize>| theta[at].copy_from_slice(&solution.theta[from]);
@@ -223,7 +224,7 @@ impl Task<'_, '_> {
         let (model, for_each) = (reduced.whole(), self.context.for_each);
         let averaged =
             is_of_band.then(|| averaged_over_small_errors(model, measured, curves, &theta, for_each))?;
-        averaged.map(|averaged| Box::new(averaged.estimated))
+        averaged.map(|averaged| averaged.estimated)
     }
 
     /// The law of an unknown nearest to the smooth curve that was found with the errors of the model.
