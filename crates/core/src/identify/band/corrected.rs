@@ -77,7 +77,7 @@ fn small_errors(
     averaged_over_small_errors(whole, measured, curves, &start, context.for_each)
 }
 
-/// The answers of a right model, with such errors in their bars.
+/// The answers of a right model, with such errors in their bars. What noise leaves identifiable stays so.
 fn with_small_errors(
     found: BandOutcome,
     small: AveragedModel,
@@ -116,6 +116,15 @@ pub(super) fn on_corrected<'a>(
     let corrected = reduced.corrected().map(|corrected| (reduced.whole(), corrected));
     errors.bars_over_noise =
         corrected.and_then(|corrected| widen(&mut outcome, &errors, at, corrected, &sigma, context));
+    for line in outcome.lines.iter_mut().filter(|line| line.status == Status::Ok) {
+        let is_known = line
+            .factor()
+            .zip(line.uncertainty())
+            .is_none_or(|(f, bars)| bars.is_known(f) && bars.is_linear());
+        if !is_known {
+            line.status = Status::NotIdentifiable;
+        }
+    }
     outcome.other_model = !errors.contradicted_assumptions.is_empty();
     outcome.model_errors = Some(errors);
     outcome
@@ -277,9 +286,6 @@ fn widen(
         }
         if line.status == Status::Ok {
             longer.push(bars.storage_std / of_noise);
-            if !(bars.is_known(factor) && bars.is_linear()) {
-                line.status = Status::NotIdentifiable;
-            }
         }
     }
     median(longer)
