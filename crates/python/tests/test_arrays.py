@@ -112,7 +112,7 @@ def test_the_factor_behind_scipys_response_is_found(chain, rows):
     assert found.trusted > 0.9
     # What the reduced model may cost (`certain`, 1e-5) is far above what exact data leave.
     np.testing.assert_allclose(found.factor[found.ok], TRUE, rtol=1e-6)
-    np.testing.assert_allclose(found.loss_factor[found.ok], 0.03, rtol=3e-5)
+    np.testing.assert_allclose(found.loss_factor[found.ok], 0.03, rtol=1e-5)
     # The factor is the rounded sum.
     np.testing.assert_allclose(found.correction, found.factor - found.nominal, rtol=1e-14)
 
