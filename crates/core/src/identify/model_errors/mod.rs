@@ -443,7 +443,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
             wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
         }
     }
-    let (near, wrong) = search.along_scales(near, wrong);
+    // Where nothing explains the band, elsewhere in the valley is no better place.
+    let (near, wrong) = if is_explained(&wrong) { search.along_scales(near, wrong) } else { (near, wrong) };
     best = best.min(wrong.evidence);
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     let scattered = data.scattered(search, &right, wrong.level);
@@ -673,18 +674,15 @@ impl<'t, 'a> Search<'t, 'a> {
         fit(&Fitting { kinds, ..self.fitting(&model, &modes, &self.lines) }, place)
     }
 
-    /// The best place along the scale of each smooth unknown beside others. Errors of modes and other unknowns can stand in for that scale: the
-    /// minimum is a long valley, in which a search ends where it comes down, with errors that suit there. Elsewhere in the valley the errors are searched anew while
-    /// the unknowns are held, and then all together. With a model that is good near the place: the same where that is the same.
+    /// The best place along the scale of each smooth unknown. Errors of modes and other unknowns can stand in for that scale: the minimum is a long valley, in which a
+    /// search ends where it comes down, with errors that suit there. Elsewhere in the valley the errors are searched anew while the unknowns are held, and then all
+    /// together. With a model that is good near the place: the same where that is the same.
     fn along_scales(
         &self,
         near: (Projection, Modes),
         mut best: Explained,
     ) -> ((Projection, Modes), Explained) {
-        if !self.curves.is_beside_others() {
-            return (near, best);
-        }
-        let (data, begun) = (self.data, best.evidence);
+        let (data, mut has_moved) = (self.data, false);
         let whole = Fitting { kinds: best.kinds, ..self.fitting(self.model, &self.modes, &self.lines) };
         let from = |best: &Explained, unknown: usize, by: f64| -> Option<Explained> {
             let place = whole.with_scale(&best.found, (unknown, by))?;
@@ -703,11 +701,10 @@ impl<'t, 'a> Search<'t, 'a> {
         for unknown in self.curves.smooth() {
             for by in [STEP_ALONG_SCALE, -STEP_ALONG_SCALE] {
                 while let Some(other) = from(&best, unknown, by) {
-                    best = other;
+                    (best, has_moved) = (other, true);
                 }
             }
         }
-        let has_moved = best.evidence < begun;
         let near =
             if has_moved { self.smaller(&self.points(&best.found.place), NEIGHBOURHOOD_TOL) } else { near };
         (near, best)
