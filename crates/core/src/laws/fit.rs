@@ -195,9 +195,10 @@ impl LawFit {
     }
 
     /// With what else θ is uncertain by.
-    pub(crate) fn with_larger_covariance(self, by: &[Vec<f64>]) -> Self {
-        let sum = |(own, by): (&Vec<f64>, &Vec<f64>)| own.iter().zip(by).map(|(own, by)| own + by).collect();
-        match self.covariance.as_ref().map(|own| own.iter().zip(by).map(sum).collect()) {
+    pub(crate) fn with_larger_covariance(self, by: &[f64]) -> Self {
+        let sum = |(own, by): (&Vec<f64>, &[f64])| own.iter().zip(by).map(|(own, by)| own + by).collect();
+        let larger = |own: &Vec<Vec<f64>>| own.iter().zip(by.chunks_exact(own.len())).map(sum).collect();
+        match self.covariance.as_ref().map(larger) {
             Some(covariance) => self.with_covariance(covariance),
             None => self,
         }

@@ -23,6 +23,7 @@ use crate::model::{ModelAt, Role};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
+use std::sync::Arc;
 
 /// Modes of a reduced model.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +66,7 @@ pub(crate) struct ModalErrors {
     pub scale: f64,
     /// ε of the loss factors of unknowns, and of which.
     pub loss: f64,
-    pub of_loss: Vec<UnknownLoss>,
+    pub of_loss: Arc<[UnknownLoss]>,
     /// δ of natural frequencies and ε of loss factors, by [`Modes::of_error`]: the model with them has ω_i exp(δ) and η_i(1 + ε); a rigid body about ω_1 √(2δ).
     pub stiffness: Vec<f64>,
     /// κ_m of the mass at sensor m.
@@ -138,9 +139,10 @@ impl ErrorSlopes {
         self
     }
 
-    /// By what all modes have in common, at a sensor: e, and ε where it is an error.
-    pub(crate) fn in_common(&self, m: usize) -> impl Iterator<Item = c64> {
-        [&self.scale, &self.loss].into_iter().filter_map(move |of_sensors| of_sensors.get(m).copied())
+    /// By what all modes have in common, of each sensor: e, and ε where it is an error; nothing without modes.
+    pub(crate) fn in_common(&self, modes: &Modes) -> impl Iterator<Item = &[c64]> {
+        let each = [&self.scale[..], &self.loss].into_iter().filter(|of_sensors| !of_sensors.is_empty());
+        each.take(if modes.omega_rad_s.is_empty() { 0 } else { usize::MAX })
     }
 }
 
@@ -715,7 +717,7 @@ mod tests {
         let errors = ModalErrors {
             scale: 0.0,
             loss: 0.0,
-            of_loss: Vec::new(),
+            of_loss: Arc::new([]),
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![kilograms / modes.apparent_mass[0], 0.0],
             gains: vec![0.0; 3],
@@ -759,7 +761,7 @@ mod tests {
         let mut errors = ModalErrors {
             scale: 0.0,
             loss: 0.0,
-            of_loss: Vec::new(),
+            of_loss: Arc::new([]),
             stiffness: vec![0.0; modes.of_error.len()],
             masses: vec![0.0; 2],
             gains: vec![0.0; 3],
@@ -795,7 +797,7 @@ mod tests {
         errors.stiffness.iter_mut().enumerate().for_each(|(k, error)| *error = 0.01 / (1.0 + k as f64));
         errors.scale = 0.03;
         errors.loss = 0.1;
-        errors.of_loss = vec![UnknownLoss { terms: vec![1], loss_factors: vec![(9.0, 0.2)] }];
+        errors.of_loss = Arc::new([UnknownLoss { terms: vec![1], loss_factors: vec![(9.0, 0.2)] }]);
         errors.shape[1][2] = 0.05;
         errors.masses[0] = 0.01;
         errors.load[3] = -0.04;

@@ -447,7 +447,7 @@ impl Projection {
     /// θ_g of factors of terms, without powers of s.
     fn weights_of(&self, factors: &[(usize, c64)]) -> Vec<c64> {
         let of_term = |&(term, weight): &(usize, c64)| WeightedTerm { term, weight };
-        // Only errors of the model depend on the frequency, and here there are none.
+        // θ_g depends on the frequency only where the model has errors, and this one has none.
         self.parts.weights(&Combination { parts: factors.iter().map(of_term).collect() }, 0.0)
     }
 

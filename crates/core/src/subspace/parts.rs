@@ -4,6 +4,7 @@ use super::{FactorError, ModalErrors, UnknownLoss};
 use crate::c64;
 use crate::model::{Combination, DynamicStiffness, FactorPart, WeightedTerm};
 use frfit_linalg::sparse::Part;
+use std::sync::Arc;
 
 /// The real matrices S_g of a model: D = Σ_g θ_g S_g with complex θ_g.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +14,7 @@ pub(super) struct Parts {
     errors: Vec<FactorError>,
     /// ε of the loss factors of unknowns, and of which.
     loss: f64,
-    of_loss: Vec<UnknownLoss>,
+    of_loss: Arc<[UnknownLoss]>,
 }
 
 impl Parts {
@@ -22,7 +23,7 @@ impl Parts {
             let imaginary = t.matrix.is_complex().then_some((term, Part::Im));
             std::iter::once((term, Part::Re)).chain(imaginary)
         });
-        Self { each: parts.collect(), errors: Vec::new(), loss: 0.0, of_loss: Vec::new() }
+        Self { each: parts.collect(), errors: Vec::new(), loss: 0.0, of_loss: Arc::new([]) }
     }
 
     /// The same with errors of known factors and of the loss factors of unknowns.

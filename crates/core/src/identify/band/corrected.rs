@@ -79,17 +79,16 @@ fn small_errors(
 
 /// The answers of a right model, with such errors in their bars. What noise leaves identifiable stays so.
 fn with_small_errors(
-    found: BandOutcome,
+    mut found: BandOutcome,
     small: AveragedModel,
     at: &[ModelAt<'_>],
     whole: &Projection,
     sigma: &[Vec<f64>],
     context: Context<'_>,
 ) -> BandOutcome {
-    let mut outcome = found;
     let corrected = Corrected::new(whole, &small.estimated.modes, &small.estimated.errors);
-    widen(&mut outcome, &small.estimated, at, (whole, &corrected), sigma, context);
-    BandOutcome { small_errors: Some(small), ..outcome }
+    widen(&mut found, &small.estimated, at, (whole, &corrected), sigma, context);
+    BandOutcome { small_errors: Some(small), ..found }
 }
 
 /// The band on a model that is corrected for its errors, with their effect on its bars; what was found before says of which sensors nothing is asked.
@@ -254,8 +253,8 @@ fn widen(
             let along = slopes.slopes[0][m].conj() / (sigma * sigma);
             weight += slopes.slopes[0][m].norm_sqr() / (sigma * sigma);
             let of_channels = channels.slopes(slopes.response[m], m, omega_rad_s(at[i].frequency_hz));
-            let in_common = slopes.in_common(m).take(errors.in_common());
-            let before_errors: Vec<c64> = of_channels.into_iter().chain(in_common).collect();
+            let in_common = slopes.in_common(modes).map(|of_sensors| of_sensors[m]);
+            let before_errors: Vec<c64> = of_channels.chain(in_common).collect();
             let own = [
                 (0, &before_errors),
                 (first_error, &slopes.stiffness[m]),

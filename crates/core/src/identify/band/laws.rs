@@ -241,7 +241,7 @@ impl Fitting<'_, '_> {
         let (whole, for_each) = (reduced.whole(), self.context.for_each);
         let Some(errors) = &free.model_errors else {
             let averaged = averaged_over_small_errors(whole, &measured, &curves, &theta, for_each)?;
-            fits[place] = fits[place].clone().with_larger_covariance(&averaged.beside_noise());
+            fits[place] = fits[place].clone().with_larger_covariance(averaged.beside_noise());
             return Some(averaged.estimated);
         };
         let rest = errors.rest;

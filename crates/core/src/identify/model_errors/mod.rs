@@ -469,25 +469,28 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct AveragedModel {
     pub(super) estimated: Estimated,
-    /// The covariance of θ by the noise alone.
-    of_noise: Vec<f64>,
+    /// What small errors add to the covariance of the unknowns' θ, row after row.
+    beside_noise: Vec<f64>,
 }
 
 impl AveragedModel {
+    fn new(estimated: Estimated, of_noise: &[f64]) -> Self {
+        let noise = of_noise.chunks_exact(estimated.theta().len().max(1));
+        let rows = estimated.of_theta().into_iter().zip(noise);
+        let beside_noise =
+            rows.flat_map(|(own, noise)| own.into_iter().zip(noise).map(|(a, b)| a - b)).collect();
+        Self { estimated, beside_noise }
+    }
+
     /// What small errors add to the covariance of the unknowns' θ, row after row.
-    pub(super) fn beside_noise(&self) -> Vec<Vec<f64>> {
-        let own = self.estimated.of_theta();
-        let noise = self.of_noise.chunks_exact(self.estimated.theta().len().max(1));
-        own.into_iter()
-            .zip(noise)
-            .map(|(own, noise)| own.iter().zip(noise).map(|(a, b)| a - b).collect())
-            .collect()
+    pub(super) fn beside_noise(&self) -> &[f64] {
+        &self.beside_noise
     }
 
     /// What they add to the variances of the real and the imaginary part of an unknown at a line, and to their covariance.
     pub(super) fn beside_noise_at(&self, unknown: usize, line: usize, frequency_hz: f64) -> Option<[f64; 3]> {
         let slopes = self.estimated.slopes(unknown, line, frequency_hz)?;
-        Some(covariance(&self.beside_noise().concat(), &slopes))
+        Some(covariance(&self.beside_noise, &slopes))
     }
 }
 
@@ -514,7 +517,7 @@ pub(super) fn averaged_over_small_errors(
     let (moments, of_noise, place) = (about.second_moments()?, about.of_none()?, about.place);
     let at = Explained { found: Minimum { place, ..right.found }, ..right };
     let estimated = Estimated { modes: search.modes.clone(), ..data.estimated(&whole, at, &moments) };
-    Some(AveragedModel { estimated, of_noise })
+    Some(AveragedModel::new(estimated, &of_noise))
 }
 
 /// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are. Of several places to begin with

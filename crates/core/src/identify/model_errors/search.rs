@@ -12,6 +12,7 @@ use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Proje
 use frfit_linalg::column_block::times_transpose;
 use frfit_linalg::dense::Cholesky;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// The model at a line with these values of its unknowns.
 pub(in crate::identify) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
@@ -282,7 +283,10 @@ impl Fitting<'_, '_> {
     }
 
     /// Unknowns whose loss factors are in error, with those at a place.
-    pub(super) fn unknown_losses(&self, place: &[f64]) -> Vec<UnknownLoss> {
+    pub(super) fn unknown_losses(&self, place: &[f64]) -> Arc<[UnknownLoss]> {
+        if self.of_unknown_loss().is_none() {
+            return Arc::new([]);
+        }
         let values = |line: usize| self.curves.values(place, line, self.omegas[line]);
         let all: Vec<(f64, Vec<c64>)> =
             (0..self.omegas.len()).filter_map(|i| Some((self.omegas[i] / TAU, values(i)?.0))).collect();
@@ -290,7 +294,7 @@ impl Fitting<'_, '_> {
             terms: terms.clone(),
             loss_factors: all.iter().map(|(hz, values)| (*hz, values[*j].im / values[*j].re)).collect(),
         };
-        self.damped.iter().filter(|_| self.of_unknown_loss().is_some()).map(of_unknown).collect()
+        self.damped.iter().map(of_unknown).collect()
     }
 
     /// The unknowns at a line with their errors, and their slopes.
@@ -460,7 +464,7 @@ impl Fitting<'_, '_> {
             scale: self.of_scale().map_or(0.0, |scale| place[scale]),
             // Of the unknowns here, not of the model.
             loss: 0.0,
-            of_loss: Vec::new(),
+            of_loss: Arc::new([]),
             stiffness: (0..self.stiffness_errors()).map(|i| common(i) + place[own + i]).collect(),
             masses: place[self.masses()].to_vec(),
             gains: place[self.gains()].to_vec(),

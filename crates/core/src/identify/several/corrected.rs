@@ -265,12 +265,8 @@ impl Task<'_, '_> {
             (0..modes.omega_rad_s.len()).flat_map(one).collect::<Vec<f64>>()
         };
         let of_all = [&slopes.stiffness, &slopes.factors, &slopes.masses, &slopes.gains, &slopes.load];
-        let mut columns = Vec::new();
-        if !modes.omega_rad_s.is_empty() {
-            for of_sensors in [&slopes.scale, &slopes.loss].into_iter().filter(|of| !of.is_empty()) {
-                columns.extend(column(&|m| of_sensors[m]));
-            }
-        }
+        let in_common = slopes.in_common(modes);
+        let mut columns: Vec<f64> = in_common.flat_map(|of_sensors| column(&|m| of_sensors[m])).collect();
         columns.extend(of_all.into_iter().flat_map(|of| shared(of)));
         columns.extend((0..sensors).flat_map(shape));
         let contained = eliminate(&solution.of_own, &mut columns, 2 * sensors);
