@@ -21,22 +21,58 @@ pub(super) fn model_errors(results: &Results) -> String {
         return String::new();
     }
     let found = summary.0.get("model_errors").filter(|found| !found.is_null());
+    let contained =
+        bars_contain(results).map_or(String::new(), |parts| format!(" Error bars contain {parts}."));
+    let none = |reason: &str| format!("<p>{reason}{contained}</p>\n");
+    let is_explained = summary.0.pointer("/fit/verdict").is_none_or(|verdict| verdict != "not explained");
     let body = match found {
-        Some(found) => sizes(found) + &modes(found) + &others(found),
+        Some(found) if has_errors(found) => sizes(found) + &modes(found) + &others(found),
+        // What is known of given factors was used.
+        Some(found) => {
+            none("No error of the model was found: a model without errors explains the band as well.")
+                + &others(found)
+        }
         None if known == "none" => {
-            "<p>The case takes the model as exact (<code>model_error = \"none\"</code>). Error bars contain the noise of the measurement only.</p>\n"
-                .to_owned()
+            none("The case takes the model as exact (<code>model_error = \"none\"</code>).")
         }
-        None => {
-            "<p>No error of the model was found: a model without errors explains the band as well as one with errors, or there was nothing to compare. \
-             Error bars contain the noise of the measurement only. An error that acts on all modes like the unknown, for example a wrong thickness, does not show in the measurement.</p>\n"
-                .to_owned()
+        None if !is_explained => {
+            none("Neither the noise nor errors of the model of usual size explain the band.")
         }
+        None => none(
+            "No error of the model was found: a model without errors explains the band as well as one with errors, or there was nothing to compare. \
+             An error that acts on all modes like the unknown, for example a wrong thickness, does not show in the measurement.",
+        ),
     };
     let is_unused = summary.0.pointer("/identify/coarser_mesh") == Some(&Value::Bool(true))
         && found.and_then(|found| found.get("mesh")).is_none_or(Value::is_null);
     let body = body + if is_unused { UNPAIRED } else { "" };
     format!("{}\n{body}{}", heading("model-errors", "Errors of the model"), leverage(results))
+}
+
+/// Whether the errors are more than those of given factors.
+fn has_errors(found: &Value) -> bool {
+    ["frequency_std", "shape_std", "loss_factor_std"]
+        .iter()
+        .any(|size| number(found, size).is_some_and(|std| std > 0.0))
+}
+
+/// What the error bars contain; `None` where there are none.
+pub(super) fn bars_contain(results: &Results) -> Option<String> {
+    let summary = &results.summary.0;
+    let are_found = summary.get("model_errors").is_some_and(has_errors);
+    let words = |part: &Value| match part.as_str()? {
+        "noise" => Some("the noise of the measurement"),
+        "model_errors" if are_found => Some("the errors of the model that were found"),
+        "model_errors" => Some("errors of the model that are too small to show beside the noise"),
+        "known_factors" => Some("the uncertainty of known factors"),
+        _ => None,
+    };
+    let parts: Vec<&str> = list(summary, "error_bars_contain").iter().filter_map(words).collect();
+    match &parts[..] {
+        [] => None,
+        [only] => Some(format!("{only} only")),
+        [first @ .., last] => Some(format!("{} and {last}", first.join(", "))),
+    }
 }
 
 const UNPAIRED: &str = "<p>The coarser mesh was not used: fewer than half of the modes of the band could be paired with its modes.</p>\n";

@@ -1,6 +1,7 @@
 //! The places of plots and table: what each shows, or why it is not there.
 
 use super::heading;
+use super::model_errors::{bars_contain, list};
 use crate::data::SENSORS;
 use crate::escape::escape;
 use crate::results::{Band, Results, Unknown};
@@ -64,25 +65,17 @@ pub(super) fn fit(results: &Results) -> String {
     html
 }
 
-/// Whether the results have errors of the model that were found.
-fn has_model_errors(results: &Results) -> bool {
-    results.summary.0.get("model_errors").is_some_and(|found| !found.is_null())
-}
-
 /// The identified values over frequency, and in the complex plane.
 pub(super) fn values(results: &Results) -> String {
-    let has_errors = has_model_errors(results);
+    let contained = bars_contain(results);
     let of_one = |(suffix, _, one): (String, usize, &Unknown)| {
         let title = if one.real { "Identified value" } else { "Storage modulus and loss factor" };
         let others = if results.unknowns.len() == 1 { "" } else { ", with all other unknowns free" };
-        let bars = match results.band.has(&one.column("storage_std")) {
-            true if has_errors => format!(
-                "Bars and bands are two standard deviations{others}. They contain the noise, the errors of the model that were found, and the uncertainty of the given factors."
-            ),
-            true => format!(
-                "Bars and bands are two standard deviations{others}. They contain the noise: 95 of 100 true values lie within, if the model is right. Errors of the model (mesh, supports) are not in them."
-            ),
-            false => {
+        let bars = match contained.as_ref().filter(|_| results.band.has(&one.column("storage_std"))) {
+            Some(contained) => {
+                format!("Error bars and bands are two standard deviations{others}. They contain {contained}.")
+            }
+            None => {
                 "There are no error bars: the noise is unknown, or this way of selecting a solution has none."
                     .to_owned()
             }
@@ -101,7 +94,7 @@ pub(super) fn contributions(results: &Results) -> String {
     const TITLE: &str = "Contributions to the standard deviation";
     const READING: &str = "One standard deviation over the storage modulus or value. The squares of the three contributions add up to the square of the total. \
          If the noise is the largest, measure longer. If the model is, refine the mesh or check the supports. If known factors are, state how well they are known.";
-    if !has_model_errors(results) {
+    if !list(&results.summary.0, "error_bars_contain").iter().any(|part| part != "noise") {
         return String::new();
     }
     let all = results.curves().filter(|(.., one)| results.band.has(&one.column("storage_std_model")));

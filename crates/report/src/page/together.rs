@@ -1,6 +1,7 @@
 //! Numbers that hold for the band, and how well they are identifiable.
 
 use super::heading;
+use super::model_errors::bars_contain;
 use super::plots::plot;
 use crate::escape::escape;
 use crate::number::{percent, significant};
@@ -42,7 +43,10 @@ pub(super) fn constants(results: &Results) -> String {
             );
         }
     }
-    html + "</tbody></table></div><p class=\"note\">Values have the units of the case. The standard deviations hold with all other unknowns free, and contain the errors of the model that were found.</p>\n"
+    let contained = bars_contain(results).map_or(String::new(), |parts| format!(", and contain {parts}"));
+    html + &format!(
+        "</tbody></table></div><p class=\"note\">Values have the units of the case. The standard deviations hold with all other unknowns free{contained}.</p>\n"
+    )
 }
 
 fn value(one: &Unknown, number: &Number) -> String {

@@ -141,7 +141,7 @@ pub(super) static CASE: Section = Section {
             "\"estimated\"",
             "Errors of the model: of its natural frequencies, mode shapes and known matrices. \
              \"estimated\": frfit estimates them from the band and corrects the model if they explain it better than a correct model. \
-             \"none\": error bars contain only the noise. \
+             \"none\": error bars contain the noise, and `storage_std` and `loss_factor_std` where given. \
              A size: the errors are as large as you state, and in every error bar.",
         ),
         key(
@@ -351,7 +351,7 @@ pub(super) static FACTOR_STD: Section = Section {
         key(
             "loss_factor_std",
             "number, or a text such as \"20 %\"",
-            "0.002 and a tenth of η if the band shows errors of the model, else none",
+            "√(0.002² + (η/10)²) if the band shows errors of the model, else none",
             "Standard deviation of η: a number, or relative as a percentage.",
         ),
     ],
@@ -376,7 +376,7 @@ file = \"dofs.csv\"
 pub(super) static LOAD: Section = Section {
     path: "load",
     title: "`[load]`",
-    about: "Give one of the three keys.\nAn FRF is the response to a unit force at one degree of freedom.\nA file describes a distributed force.",
+    about: "Give one of the three keys.\nAn FRF is the response to a unit force at one degree of freedom.\nA file describes a distributed force; the measurement is then the response to this force as a whole.",
     keys: &[
         key("dof", "name such as 12+Z", "`row` or `file`", "DOF of a unit force; the sign gives its sense."),
         key("row", "whole number", "`dof` or `file`", "Row of a unit force, from 1."),
@@ -452,7 +452,7 @@ pub(super) static MEASUREMENT: Section = Section {
             "file",
             "text",
             "none, if the command needs no measurement",
-            "UFF 58 or 58b, or CSV with `frequency_hz`, `re` and `im`, or a magnitude and a phase; if known, `coherence` or `std`.",
+            "UFF 58 or 58b, or CSV with `frequency_hz`, `re` and `im`, or `magnitude` (or `magnitude_db`, re 1 in SI units) and `phase_deg` (or `phase_rad`); if known, `coherence` or `std`, the standard deviation of the complex value (√2 times that of each part).",
         ),
         key(
             "columns",
@@ -484,13 +484,13 @@ pub(super) static MEASUREMENT: Section = Section {
             "scale",
             "number other than 0, or \"unknown\"",
             "1",
-            "Factor for the values (9.81 for g). \"unknown\": frfit identifies it, if another channel is known or the unknown is a law or a constant.",
+            "Factor for the values (9.80665 for g). \"unknown\": frfit identifies it, if another channel is known or the unknown is a law or a constant.",
         ),
         key(
             "delay_s",
             "number, s, or \"unknown\"",
             "0",
-            "Delay of this channel. \"unknown\": as with `scale`.",
+            "Time by which the channel is late: a phase of e^(−iωτ) in the file, which frfit removes. \"unknown\": as with `scale`.",
         ),
         key(
             "decay_per_s",

@@ -7,9 +7,10 @@ use crate::load::{Case, IdentifyCase, InputFile, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
 use frfit::identify::{
-    Assumption, CalibrationError, CausalityBreach, ContradictedAssumption, Dependence, Direction,
-    FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, LeverageOf, Line, MeshError,
-    ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown, Variation,
+    Assumption, CalibrationError, CausalityBreach, ContradictedAssumption, Contributions, Dependence,
+    Direction, FactorError, GoodnessOfFit, Identifiability, Identification, Leverage, LeverageOf, Line,
+    MeshError, ModeError, ModelErrors, ModelErrorsFound, NoiseLevel, Number, SensorMass, Status, Unknown,
+    Variation,
 };
 use frfit::material::loss_factor;
 use frfit::model::{FactorPart, Term};
@@ -65,6 +66,7 @@ pub fn summary_json(
         "noise": noise(identify, run),
         "fit": fit_json(found.fit.as_ref()),
         "model_errors": found.model_errors.as_ref().map(|errors| model_errors_json(case, errors)),
+        "error_bars_contain": error_bars_contain(found),
         "leverage": leverage_json(case, found),
         "causality_breaches": breaches_json(case, found),
         "error": spread(run, |line| line.error),
@@ -103,6 +105,23 @@ pub fn summary_json(
         of_the_only(&mut summary);
     }
     summary
+}
+
+/// What the error bars contain beside one another: `noise`, `model_errors` and `known_factors`. Errors of the model are in them also where none was found but
+/// noise may hide some.
+fn error_bars_contain(found: &Identification) -> Vec<&'static str> {
+    let values = || found.lines.iter().flat_map(|line| &line.values);
+    let contains = |of: fn(&Contributions) -> f64| {
+        values().filter_map(|value| value.uncertainty).any(|bar| of(&bar.contributions) > 0.0)
+    };
+    [
+        ("noise", contains(|bar| bar.noise)),
+        ("model_errors", contains(|bar| bar.model)),
+        ("known_factors", contains(|bar| bar.known_factors)),
+    ]
+    .into_iter()
+    .filter_map(|(part, is_in)| is_in.then_some(part))
+    .collect()
 }
 
 /// The keys of the only unknown, where a program expects them that knows of no other.
