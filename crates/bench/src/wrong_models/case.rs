@@ -462,6 +462,7 @@ pub(crate) fn solve(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use frfit::identify::{Explained, Status};
 
     /// The first case of a class on beams alone: those take the least time.
     fn small(class: usize) -> Case {
@@ -472,6 +473,25 @@ mod tests {
         };
         let index = indices.find(is_beam).unwrap();
         Case::draw(1, index, Setting::USUAL, Unknowns::One).unwrap()
+    }
+
+    /// A support that gives a little (natural frequencies 0.02 % off): a smooth modulus and a right model explain the band, a constant modulus and a right model do not.
+    /// The errors are searched with the law then, and its error bars hold them.
+    #[test]
+    fn errors_that_a_smooth_modulus_hides_are_found_with_the_law() {
+        let case = Case::draw(801, 37, Setting::USUAL, Unknowns::One).unwrap();
+        let (smooth, _) = case.identify(Way::Smooth, &Options::default()).unwrap();
+        assert!(smooth.model_errors.is_none() && smooth.fit.unwrap().verdict == Explained::Yes);
+        let (found, _) = case.identify(Way::Law, &Options::default()).unwrap();
+        assert!(found.model_errors.is_some() && found.fit.unwrap().verdict == Explained::Yes);
+        let Law::Constant(truth) = case.truth else { panic!("{:?}", case.truth) };
+        for line in &found.lines {
+            let one = &line.values[0];
+            assert_eq!(line.status, Status::Ok);
+            let off = one.storage().unwrap() / truth.re - 1.0;
+            let bar = one.uncertainty.unwrap().storage_std / truth.re;
+            assert!(off.abs() < 2.0 * bar && bar < 0.04, "{off} {bar}");
+        }
     }
 
     #[test]

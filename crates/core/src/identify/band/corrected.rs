@@ -38,8 +38,7 @@ pub(super) fn correct<'a>(
         return found;
     }
     let weights = Weights::new((band, unknown), at, &found.left_out());
-    let curves = Curves::new(vec![Curve::Spline(Spline::new(&weights.omegas, band.unknown.real))]);
-    let curves = curves.with_channels(ChannelCoordinates::new(unknown, 0, &weights.omegas));
+    let curves = weights.smooth(band, unknown);
     let point = point(at);
     let measured = weights.of(band, options, &point, &found);
     let (explanation, leverage) = estimate(reduced.whole(), &measured, &curves, context.for_each);
@@ -169,6 +168,12 @@ impl Weights {
 
     pub(super) fn omegas(&self) -> &[f64] {
         &self.omegas
+    }
+
+    /// A smooth modulus, and the channels of unknown scale or delay.
+    pub(super) fn smooth(&self, band: &Band<'_>, unknown: &[ChannelUnknowns]) -> Curves {
+        let curves = Curves::new(vec![Curve::Spline(Spline::new(&self.omegas, band.unknown.real))]);
+        curves.with_channels(ChannelCoordinates::new(unknown, 0, &self.omegas))
     }
 
     pub(super) fn of<'t, 'a>(

@@ -22,7 +22,8 @@ use crate::identify::form::Form;
 use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{
-    Curve, Curves, Estimated, Split, averaged_over_small_errors, estimate_with_laws,
+    Curve, Curves, Estimated, Split, averaged_over_small_errors, estimate_beside_a_smooth_modulus,
+    estimate_with_laws,
 };
 use crate::identify::noise::{NoiseLevel, NoiseSource, without};
 use crate::identify::options::{ModelErrors, Options};
@@ -144,6 +145,7 @@ pub(in crate::identify) fn identify_laws<'a>(
         (context.progress)(Stage::Law, fits.len(), kinds.len());
         fits.extend(fitting.fit(kind, &mut reduced, &free, best(&fits)));
     }
+    let had_errors = free.model_errors.is_some();
     let of_law = if any_calibrated { fitting.with_errors(&mut fits, &mut reduced, &mut free) } else { None };
     if let Some((place, excess)) = fitting.excess(&fits, &free.noise) {
         fits[place] = fits[place].clone().with_noise(excess);
@@ -174,8 +176,8 @@ pub(in crate::identify) fn identify_laws<'a>(
     let view = scaled.band(band);
     let sigma = without(&standard_deviations(view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
-    if better != channels {
-        // The value of each frequency alone, at the calibrations that came out.
+    if better != channels || free.model_errors.is_some() != had_errors {
+        // The value of each frequency alone, at the calibrations and the errors that came out.
         let mut whole = Some(reduced);
         let spent = free.work;
         let errors = free.model_errors.take().zip(whole.as_mut());
@@ -214,7 +216,9 @@ pub(in crate::identify) fn identify_laws<'a>(
 }
 
 impl Fitting<'_, '_> {
-    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both. Of a right model they hold small errors.
+    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both. A smooth modulus may hide errors
+    /// that a law does not: where a right model explains the band with the one and not with the other, they are searched with the law. Where a right model explains the band
+    /// with the law too, its error bars hold small errors.
     fn with_errors(
         &self,
         fits: &mut [LawFit],
@@ -239,22 +243,48 @@ impl Fitting<'_, '_> {
         channels.begin_at(&left, &mut theta);
         let curves = Curves::new(vec![Curve::Form(Form::Law(*law))]).with_channels(channels);
         let (whole, for_each) = (reduced.whole(), self.context.for_each);
-        let Some(errors) = &free.model_errors else {
+        let is_explained =
+            |law: &LawFit| self.goodness(law, &free.noise).0.is_none_or(|fit| fit.verdict != Explained::No);
+        let errors = match &free.model_errors {
+            Some(before) => {
+                Some(estimate_with_laws(whole, &measured, before, &curves, &[theta.clone()], for_each)?)
+            }
+            None if is_explained(&fits[place]) => None,
+            None => {
+                let smooth = weights.smooth(self.band, self.unknown);
+                estimate_beside_a_smooth_modulus(whole, &measured, (&smooth, &curves), &theta, for_each)
+            }
+        };
+        let Some(errors) = errors else {
             let averaged = averaged_over_small_errors(whole, &measured, &curves, &theta, for_each)?;
             fits[place] = fits[place].clone().with_larger_covariance(averaged.beside_noise());
             return Some(averaged.estimated);
         };
-        let rest = errors.rest;
-        let errors = estimate_with_laws(whole, &measured, errors, &curves, &[theta], for_each)?;
-        // What was beside the noise is in the standard deviations already.
-        let errors = errors.beside(rest);
-        reduced.correct(&errors.modes, &errors.errors);
-        let all: Vec<usize> = (0..self.at.len()).collect();
-        reduced.localise(&all, self.context.for_each);
-        let again = self.fit(kind, reduced, free, Some(&fits[place]))?;
+        let again = self.fit_corrected(&fits[place], &errors, reduced, free)?;
+        // What was beside the noise before is in the standard deviations already.
+        let errors = errors.beside(free.rest());
         fits[place] = again.with_covariance(errors.of_theta());
         free.model_errors = Some(errors.clone());
         Some(errors)
+    }
+
+    /// A law once more, on the model that is corrected for errors, with what they leave of the response beside the noise.
+    fn fit_corrected(
+        &self,
+        before: &LawFit,
+        errors: &Estimated,
+        reduced: &mut Neighbourhoods<'_, '_>,
+        free: &BandOutcome,
+    ) -> Option<LawFit> {
+        reduced.correct(&errors.modes, &errors.errors);
+        let all: Vec<usize> = (0..self.at.len()).collect();
+        reduced.localise(&all, self.context.for_each);
+        let calibrated = vec![Channel::CALIBRATED; self.unknown.len()];
+        let scaled = Scaled::new(self.band, &calibrated).with_rest(errors.rest, self.band.frequency_hz);
+        let view = scaled.band(self.band);
+        let sigma = without(&standard_deviations(view.measured, view.noise), &free.left_out());
+        let beside = Fitting { band: &view, sigma: &sigma, ..*self };
+        beside.fit(before.kind, reduced, free, Some(before))
     }
 
     /// The best law, and by how much its bars are too short where the band is nearly explained.

@@ -331,18 +331,13 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     // Far from the answer a rough model is as good.
     let points: Vec<Point<'_>> = starts.iter().flat_map(|start| search.points(start)).collect();
     let rough = search.smaller(&points, ROUGH_NEIGHBOURHOOD_TOL);
-    let given: Vec<FactorPrior> = search.factors.iter().filter(|factor| factor.is_given).copied().collect();
-    let right_of = |model: &Projection, start: Place| -> Option<Explained> {
-        let none = Modes::none(model);
-        let fitting = Fitting { factors: &given, ..search.fitting(model, &none, &search.lines) };
-        data.explain(&fitting, start, &ADDED_NOISE[2..])
-    };
+    let given = search.given_factors();
     let start = starts[0].iter().copied().chain(given.iter().map(|_| 0.0)).collect();
-    let right = right_of(&rough.0, start)?;
+    let right = search.right(&rough.0, &given, start)?;
     // What is said of known factors is in the error bars of a right model too.
     let right_model = || -> Option<Explanation> {
         let near = search.smaller(&search.points(&right.found.place), NEIGHBOURHOOD_TOL);
-        let right = right_of(&near.0, right.found.place.clone())?;
+        let right = search.right(&near.0, &given, right.found.place.clone())?;
         let none = Modes::none(&near.0);
         let fitting = Fitting { factors: &given, ..search.fitting(&near.0, &none, &search.lines) };
         let estimated = data.posterior(&fitting, right, 0.0)?;
@@ -520,6 +515,43 @@ pub(super) fn averaged_over_small_errors(
     Some(AveragedModel::new(estimated, &of_noise))
 }
 
+/// The errors of a model by the data of a band whose unknown follows a law, where a right model explains the band with a smooth modulus (`smooth`) and not with
+/// the law at θ (`curves`). `None` unless they and the law are likelier than that smooth modulus.
+pub(super) fn estimate_beside_a_smooth_modulus(
+    model: &Projection,
+    data: &Measured<'_, '_>,
+    (smooth, curves): (&Curves, &Curves),
+    theta: &[f64],
+    for_each: ForEach<'_>,
+) -> Option<Estimated> {
+    let of_smooth = evidence_of_right_model(model, data, smooth, &data.starts(smooth), for_each)?;
+    // A law does not scatter from line to line.
+    let given = [theta.to_vec()];
+    let data = &Measured { given: &given, own: &[], ..*data };
+    let of_law = evidence_of_right_model(model, data, curves, &given, for_each)?;
+    match estimate(model, data, curves, for_each).0 {
+        Explanation::Errors(errors) if 2.0 * errors.evidence > of_law - of_smooth => Some(*errors),
+        _ => None,
+    }
+}
+
+/// −2 ln of the evidence of a right model.
+fn evidence_of_right_model(
+    model: &Projection,
+    data: &Measured<'_, '_>,
+    curves: &Curves,
+    starts: &[Vec<f64>],
+    for_each: ForEach<'_>,
+) -> Option<f64> {
+    let start = starts.first()?;
+    let centre = curves.straight(start);
+    let search = Search::new(model, data, (curves, &centre), start, for_each)?;
+    let (near, _) = search.smaller(&search.points(start), ROUGH_NEIGHBOURHOOD_TOL);
+    let given = search.given_factors();
+    let place = start.iter().copied().chain(given.iter().map(|_| 0.0)).collect();
+    Some(search.right(&near, &given, place)?.evidence)
+}
+
 /// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are. Of several places to begin with
 /// that of largest evidence; `None` where these errors are no small ones.
 pub(super) fn estimate_with_laws(
@@ -638,6 +670,18 @@ impl<'t, 'a> Search<'t, 'a> {
             values_of_modes,
             mesh: None,
         })
+    }
+
+    /// What is said of known factors.
+    fn given_factors(&self) -> Vec<FactorPrior> {
+        self.factors.iter().filter(|factor| factor.is_given).copied().collect()
+    }
+
+    /// A model without errors but those of given factors.
+    fn right(&self, model: &Projection, given: &[FactorPrior], start: Place) -> Option<Explained> {
+        let none = Modes::none(model);
+        let fitting = Fitting { factors: given, ..self.fitting(model, &none, &self.lines) };
+        self.data.explain(&fitting, start, &ADDED_NOISE[2..])
     }
 
     /// With what lies between this mesh and a coarser one, where there is one. The stiffness of an unknown then has no error of a usual size: the meshes
