@@ -265,6 +265,36 @@ fn what_is_known_of_the_model_is_in_every_bar() {
     assert!(bars(&found) > 3.0 * bars(&as_it_is), "{} {}", bars(&found), bars(&as_it_is));
 }
 
+/// A model that is exact but for the mass, which is known to 1 %: the error bars of the modulus hold that, however it varies.
+#[test]
+fn a_known_factor_of_an_exact_model_is_in_the_bars() {
+    let frequency_hz = linear_hz(5.0, 560.0, 60);
+    let truth = [c64::new(7e10, 3.5e9), c64::new(2e3, 4.0), c64::new(2700.0, 0.0)];
+    let (u, std) = sprung_with_noise(0.01, (12, truth), [1.0; 3], &frequency_hz);
+    let (model, experiment) = sprung(12, truth, &[0.8, 0.4, 0.2]);
+    let mass = model.find("mass").unwrap();
+    let known = model.clone().with_factor_std(mass, FactorStd { storage: Some(0.01), loss_factor: None });
+    let law = Variation::law(LawKind::Constant);
+    for varies in [Variation::PerFrequency, Variation::Smooth, law, Variation::Constant] {
+        let parts = |model: &DynamicStiffness| {
+            let unknown = Unknown { varies: varies.clone(), ..Unknown::factor_of(model, &["beam"]).unwrap() };
+            let unknowns = [Unknown { nominal: Law::Constant(0.9 * truth[0]), ..unknown }];
+            let noise = Noise::Known(&std);
+            let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &u, noise };
+            let problem = Problem::new(model, &experiment, &unknowns, &[], frfs).unwrap();
+            let mut options = Options::default();
+            options.model_errors = ModelErrors::None;
+            let context = Context { for_each: &sequential, progress: &|_, _, _| {} };
+            let found = identify(&problem, &options, context).unwrap();
+            let line = found.lines.iter().rfind(|line| line.status == Status::Ok).unwrap();
+            line.values[0].uncertainty.unwrap().contributions
+        };
+        let (without, with) = (parts(&model), parts(&known));
+        assert!(without.known_factors == 0.0 && without.model == 0.0, "{varies:?}: {without:?}");
+        assert!(with.known_factors > 0.2 * with.noise && with.model == 0.0, "{varies:?}: {with:?}");
+    }
+}
+
 /// A free beam on two springs: modulus of the beam and stiffness of the springs hold for the band. Its mass is 2 % too large, or its
 /// mesh so coarse that natural frequencies are up to 1 % off; without errors of the model both are wrong by many bars.
 #[test]

@@ -198,6 +198,11 @@ impl DynamicStiffness {
         self.factor_std[term]
     }
 
+    /// Whether the accuracy of some factor is known.
+    pub(crate) fn has_factor_std(&self) -> bool {
+        self.factor_std.iter().any(|std| *std != FactorStd::default())
+    }
+
     /// What a matrix of this role is multiplied by: [`Role::weight`] with the decay of this model.
     pub fn weight(&self, role: Role, frequency_hz: f64) -> c64 {
         role.weight(frequency_hz, self.decay_per_s)

@@ -34,7 +34,7 @@ pub(super) fn correct<'a>(
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {
-    if options.model_errors == ModelErrors::None {
+    if options.model_errors == ModelErrors::None && !band.model.has_factor_std() {
         return found;
     }
     let weights = Weights::new((band, unknown), at, &found.left_out());
@@ -199,7 +199,7 @@ impl Weights {
             own: &[0],
             level_per_frequency: found.noise.level,
             fit: found.fit,
-            may_be_wrong: true,
+            may_be_wrong: options.model_errors != ModelErrors::None,
             wants_curves: false,
         }
     }

@@ -225,7 +225,8 @@ impl Fitting<'_, '_> {
         reduced: &mut Neighbourhoods<'_, '_>,
         free: &mut BandOutcome,
     ) -> Option<Estimated> {
-        if self.options.model_errors == ModelErrors::None || free.other_model {
+        let is_exact = self.options.model_errors == ModelErrors::None && !self.band.model.has_factor_std();
+        if is_exact || free.other_model {
             return None;
         }
         let kind = best(fits)?.kind;

@@ -31,7 +31,8 @@ impl Task<'_, '_> {
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
         let is_smooth = self.asked.has_smooth();
-        if self.options.model_errors == ModelErrors::None && !is_smooth {
+        let is_exact = self.options.model_errors == ModelErrors::None && !self.problem.model.has_factor_std();
+        if is_exact && !is_smooth {
             return found;
         }
         let (explanation, small, leverage) = self.errors(reduced, solution, &found);
