@@ -5,6 +5,7 @@ use crate::common;
 use common::{Case, bar, beam, c, chain, plate, sandwich, term, thickness, tip_load};
 use frfit::c64;
 use frfit::for_each::sequential;
+use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Parameter, Role, Sensor, Term};
 use frfit::rational::RationalResponse;
 use frfit::response::{FullModel, Response};
@@ -298,6 +299,22 @@ fn a_model_of_a_neighbourhood_tells_errors_of_the_full_one() {
     let assessed = local.assess(&far, c64::default()).unwrap();
     let error = (assessed.response[0] - case.direct(900.0, c64::default()).unwrap()[0]).norm();
     assert!(error > 1e-6 * assessed.response[0].norm() && error <= SHORT * assessed.error(0));
+}
+
+/// A search that runs off asks for values at which nothing moves: there is no model about those.
+#[test]
+fn there_is_no_model_where_nothing_responds() {
+    let case = sandwich(12, 1);
+    let (subspace, _) = case.trained(1e-9);
+    let stiff = Parameter::factor_of(&case.model, &["skins", "core"]).unwrap();
+    let about = |size: f64| {
+        let stiff = Parameter { nominal: Law::Constant(c64::new(size, size)), ..stiff.clone() };
+        let at = case.model.at(100.0, &[stiff]).unwrap();
+        subspace.projection().about(&at).map(|model| model.size())
+    };
+    assert!(about(1e6).is_some_and(|size| size > 0));
+    // Vectors whose square is zero.
+    assert_eq!(about(1e220), None);
 }
 
 #[test]

@@ -83,7 +83,7 @@ impl Projection {
 
 impl Projection {
     /// This model on the span of x, of every sensor's z_m and of their slopes by every parameter at the nominal values: response and slopes are exact there, and since residuals of
-    /// x and of z_m are of second order, what they are off nearby is of fourth. `None` where the system is singular, or no vector would be saved.
+    /// x and of z_m are of second order, what they are off nearby is of fourth. `None` where the system is singular, where nothing responds, or where no vector would be saved.
     pub fn about(&self, at: &ModelAt<'_>) -> Option<Self> {
         let solutions = self.solutions_with_slopes(at).ok()?;
         let mut directions = Vec::new();
@@ -93,7 +93,7 @@ impl Projection {
                 return None;
             }
         }
-        Some(self.compressed(&directions.concat()))
+        (!directions.is_empty()).then(|| self.compressed(&directions.concat()))
     }
 }
 
