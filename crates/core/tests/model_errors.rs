@@ -724,6 +724,14 @@ fn far_nominals_of_constants_are_found_by_natural_frequencies() {
         let off = [beam, springs].into_iter().zip(&found.search.about).map(|(given, about)| given * about);
         let off: Vec<f64> = off.collect();
         assert!(off.len() == 2 && off.iter().all(|off| (0.7..1.4).contains(off)), "{off:?}");
+        if beam < 0.5 {
+            // Bounds that exclude the true value exclude the search there.
+            let mut bounded = unknowns.clone();
+            bounded[0].bounds.storage = Some([0.5 * nominal[0].re, 2.0 * nominal[0].re]);
+            let problem = Problem::new(&model, &experiment, &bounded, &[], frfs).unwrap();
+            let found = identify(&problem, &Options::default(), context).unwrap();
+            assert_eq!(found.search.about.first().copied().unwrap_or(1.0), 1.0);
+        }
     }
 }
 

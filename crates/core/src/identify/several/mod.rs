@@ -177,7 +177,8 @@ impl Task<'_, '_> {
         Searched { solution, right, contradicting, left_out }
     }
 
-    /// By which factors nominal values are far off, where the band is not explained and natural frequencies say that all stiffnesses together are, or a single one.
+    /// By which factors nominal values are far off, where the band is not explained and natural frequencies say that all stiffnesses together are, or a single one. What is
+    /// beyond its bounds is not searched.
     fn far(&self, reduced: &Neighbourhoods<'_>, found: &Searched) -> Option<Vec<f64>> {
         if found.right.fit.is_some_and(|fit| fit.is_explained()) {
             return None;
@@ -213,9 +214,16 @@ impl Task<'_, '_> {
             let far = shapes.far(reduced.whole(), &nominal, &point)?;
             Some((far, which))
         };
+        let is_within = |(far, which): &(Far, Vec<usize>)| {
+            which.iter().all(|&j| {
+                let storage = far.factor * self.nominal[middle][j].re;
+                unknowns[j].bounds.storage.is_none_or(|[low, high]| (low..=high).contains(&storage))
+            })
+        };
         let (far, which) = std::iter::once(all.clone())
             .chain(single)
             .filter_map(of)
+            .filter(is_within)
             .max_by(|a, b| a.0.gain.total_cmp(&b.0.gain))?;
         let factor = |j: usize| if which.contains(&j) { far.factor } else { 1.0 };
         Some((0..unknowns.len()).map(factor).collect())
