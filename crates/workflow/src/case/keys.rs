@@ -467,7 +467,12 @@ pub(super) static MEASUREMENT: Section = Section {
             "DOF of the sensor; the sign gives its sense.",
         ),
         key("row", "whole number", "`dof`, or the DOF in the file", "Row of the sensor, from 1."),
-        key("record", "whole number", "the FRF at this DOF", "Number of the FRF in a UFF file, from 1."),
+        key(
+            "record",
+            "whole number",
+            "the FRF at this DOF",
+            "Number of the FRF in a UFF file, from 1. Without it frfit takes the FRF at this DOF with the load of the case, or the one with the two exchanged (a hammer that moves).",
+        ),
         key(
             "quantity",
             "\"receptance\", \"mobility\" or \"accelerance\"",

@@ -116,7 +116,7 @@ impl Index {
         Ok(frf)
     }
 
-    /// By number; else by its degrees of freedom; else the only one.
+    /// By number; else by its degrees of freedom; else by these exchanged, as a hammer that moves has them (by reciprocity that FRF is the same); else the only one.
     fn chosen(&self, choice: &Choice) -> Result<usize, FormatError> {
         let frfs = &self.frfs;
         if let Some(record) = choice.record {
@@ -133,10 +133,19 @@ impl Index {
         let there = choice.measured_at.and_then(|wanted| self.measured_at.get(&wanted));
         let there = there.map_or(&[][..], Vec::as_slice);
         let mut fitting = there.iter().filter(|&&k| agrees(choice.driven_at, &frfs[k].1.reference));
+        let exchanged = || -> Option<usize> {
+            let (wanted, driven_at) = (choice.measured_at?, choice.driven_at?);
+            let there = self.measured_at.get(&driven_at)?;
+            let mut fitting = there.iter().filter(|&&k| dof(&frfs[k].1.reference) == Some(wanted));
+            fitting.next().copied().filter(|_| fitting.next().is_none())
+        };
         match (frfs.len(), fitting.next(), fitting.next()) {
             (1, ..) => Ok(0),
             (_, Some(&k), None) => Ok(k),
             (_, first, _) => {
+                if let Some(k) = exchanged().filter(|_| first.is_none()) {
+                    return Ok(k);
+                }
                 let which = match (choice.measured_at, first) {
                     (None, _) => "several, and no dof or record that says which",
                     (Some(_), None) => "none with the dof and load of the case",

@@ -98,6 +98,16 @@ fn a_record_is_found_by_response_and_reference() {
     assert_eq!(taken(&case), ("2+Z", Quantity::Mobility, 2.0));
 }
 
+/// The hammer moves and the accelerometer stays, where the case has its load.
+#[test]
+fn a_record_is_found_by_load_and_response_exchanged() {
+    let moving = |node, direction, value| function((1, 3), (node, direction), value, Measured::Acceleration);
+    let roving = file(&[moving(2, 3, 4.0), moving(2, -3, 5.0), moving(3, 3, 6.0)]);
+    let case = measured(&roving, "file = \"a.uff\"\ndof = \"2-Z\"\n").unwrap();
+    assert_eq!(taken(&case), ("2-Z", Quantity::Accelerance, 5.0));
+    assert_eq!((case.experiment.sensors[0].row, case.experiment.sensors[0].sign), (1, -1.0));
+}
+
 #[test]
 fn a_record_is_found_by_its_number_and_says_where_it_was_measured() {
     let case = measured(&several(), "file = \"a.uff\"\nrecord = 3\n").unwrap();
