@@ -121,6 +121,10 @@ def test_records_are_chosen_by_response_and_reference(chain, tmp_path):
         np.testing.assert_array_equal(one.response, expected.values)
     names = list(frfit.Measurement.from_uff(path, {"12-Z": 11, "7+Z": 6}, driven_at="1+z"))
     assert [one.row for one in names] == [11, 6]
+    # The hammer has moved, and the accelerometer has not: by reciprocity the FRF is the same.
+    (moved,) = frfit.Measurement.from_uff(path, {"1+Z": 0}, driven_at="12-Z")
+    np.testing.assert_array_equal(moved.response, second.values)
+    assert (moved.row, moved.sign) == (0, 1.0)
 
 
 @pytest.mark.parametrize(

@@ -135,7 +135,8 @@ class Measurement:
 
         ``dofs`` has the name of each response, which chooses the record, and the row of the model along that axis, from 0:
         ``{"34+Z": 97, "12-X": 4}``; motion against the axis counts as positive where the name has a minus. ``driven_at`` is the
-        name of the degree of freedom of the force, where the file has records of several.
+        name of the degree of freedom of the force, where the file has records of several. With it, a record with the two ends
+        exchanged is taken where there is no other: that of a hammer that moves.
 
         The values are in SI units where the file says its units (dataset 164). Standard deviation and coherence are taken where
         the file has them between the same degrees of freedom at the same frequencies; the coherence only weighs without

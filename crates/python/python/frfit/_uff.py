@@ -315,6 +315,13 @@ def frfs_of(path: str | os.PathLike[str], names: Sequence[str], driven_at: Any =
             for record, one in enumerate(frfs, 1)
             if one.response_dof == dof.name and (force is None or one.reference_dof == force.name)
         ]
+        if not fitting and force is not None:
+            # A hammer that moves: by reciprocity that FRF is the same.
+            fitting = [
+                record
+                for record, one in enumerate(frfs, 1)
+                if one.response_dof == force.name and one.reference_dof == dof.name
+            ]
         if len(fitting) != 1:
             listed = some((f"{one.response_dof}/{one.reference_dof}" for one in frfs), 8)
             said = "several, and driven_at says not which" if force is None else "several driven there"
