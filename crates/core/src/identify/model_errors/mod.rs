@@ -1101,6 +1101,8 @@ impl<'a> Measured<'_, 'a> {
                     let common = fitting.in_common(true).collect();
                     let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
                     sizes.common = sizes.common.max(shown);
+                    // What shifts all natural frequencies may be without damping, or have more.
+                    sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * shown);
                 }
             }
             let settled = |a: f64, b: f64| (a - b).abs() <= 0.03 * b;
