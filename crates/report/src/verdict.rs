@@ -541,7 +541,12 @@ fn tiles_of_band(results: &Results, nominal_error: &[Option<f64>], own: bool) ->
                 _ if summary.array("/model_errors/contradicted_assumptions").is_empty() => "no".into(),
                 _ => "yes, but not with what the case takes for known".into(),
             },
-            detail: format!("χ² per degree of freedom {}; noise {}", significant(chi, 3), noise(results)),
+            detail: format!(
+                "χ² per degree of freedom {}; noise {}{}",
+                significant(chi, 3),
+                noise(results),
+                noise_size(results)
+            ),
         },
         _ => Tile {
             label: "Does the model explain all sensors?".into(),
@@ -570,6 +575,13 @@ pub(crate) fn noise(results: &Results) -> &'static str {
         "curve" => "estimated from the residual of the smooth curve",
         _ => "unknown",
     }
+}
+
+/// How large an estimated noise is. A misfit of the whole response passes for noise where nothing says otherwise.
+fn noise_size(results: &Results) -> String {
+    let is_share = results.summary.word("/noise/deviation").starts_with("size");
+    let level = results.summary.number("/noise/level").filter(|_| is_share);
+    level.map_or(String::new(), |level| format!(": {} of the response", percent(level)))
 }
 
 /// P-40 with the nominal response. Accelerance and receptance differ by one number at a frequency, so that the quotient is the same of either.
