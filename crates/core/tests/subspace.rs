@@ -301,7 +301,7 @@ fn a_model_of_a_neighbourhood_tells_errors_of_the_full_one() {
     assert!(error > 1e-6 * assessed.response[0].norm() && error <= SHORT * assessed.error(0));
 }
 
-/// A search that runs off asks for values at which nothing moves: there is no model about those.
+/// A search may run off to a stiffness so large that nothing responds. There is no local model about it.
 #[test]
 fn there_is_no_model_where_nothing_responds() {
     let case = sandwich(12, 1);

@@ -577,7 +577,7 @@ pub(crate) fn noise(results: &Results) -> &'static str {
     }
 }
 
-/// How large an estimated noise is. A misfit of the whole response passes for noise where nothing says otherwise.
+/// The standard deviation of an estimated noise. If nothing else is known of it, a misfit as large as the response counts as noise.
 fn noise_size(results: &Results) -> String {
     let is_share = results.summary.word("/noise/deviation").starts_with("size");
     let level = results.summary.number("/noise/level").filter(|_| is_share);

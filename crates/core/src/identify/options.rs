@@ -3,6 +3,7 @@
 use super::choice::{Method, Reduction, Selection, UnknownChoice};
 use super::unknown::{NEAR_BOX_RATIO, Unknown};
 use crate::c64;
+use crate::model::DynamicStiffness;
 use crate::with_fields::with_fields;
 use std::fmt;
 use std::str::FromStr;
@@ -130,6 +131,11 @@ impl ModelErrors {
             Self::Given(sizes) => sizes,
             Self::Estimated | Self::None => ErrorSizes::default(),
         }
+    }
+
+    /// Whether a model counts as exact: without errors, and with no factor whose accuracy is given.
+    pub(super) fn is_exact(self, model: &DynamicStiffness) -> bool {
+        self == Self::None && !model.has_factor_std()
     }
 }
 

@@ -307,21 +307,21 @@ def frfs_of(path: str | os.PathLike[str], names: Sequence[str], driven_at: Any =
     if not frfs:
         expected = "a frequency response function (dataset 58 of function type 4)"
         raise refused(expected, f"none, and {counted(len(functions), 'function')} of other types")
+
+    def between(response: str, reference: str | None) -> list[int]:
+        return [
+            record
+            for record, one in enumerate(frfs, 1)
+            if one.response_dof == response and reference in (None, one.reference_dof)
+        ]
+
     wanted = {name: _dof(name, "dofs") for name in names}
     chosen = []
     for dof in wanted.values():
-        fitting = [
-            record
-            for record, one in enumerate(frfs, 1)
-            if one.response_dof == dof.name and (force is None or one.reference_dof == force.name)
-        ]
+        fitting = between(dof.name, None if force is None else force.name)
         if not fitting and force is not None:
             # A hammer that moves: by reciprocity that FRF is the same.
-            fitting = [
-                record
-                for record, one in enumerate(frfs, 1)
-                if one.response_dof == force.name and one.reference_dof == dof.name
-            ]
+            fitting = between(force.name, dof.name)
         if len(fitting) != 1:
             listed = some((f"{one.response_dof}/{one.reference_dof}" for one in frfs), 8)
             said = "several, and driven_at says not which" if force is None else "several driven there"

@@ -24,10 +24,9 @@ pub(super) fn model_errors(results: &Results) -> String {
     let contained =
         bars_contain(results).map_or(String::new(), |parts| format!(" Error bars contain {parts}."));
     let none = |reason: &str| format!("<p>{reason}{contained}</p>\n");
-    let is_explained = summary.0.pointer("/fit/verdict").is_none_or(|verdict| verdict != "not explained");
     let body = match found {
         Some(found) if has_errors(found) => sizes(found) + &modes(found) + &others(found),
-        // What is known of given factors was used.
+        // Only the stated accuracies of known factors are in the error bars.
         Some(found) => {
             none("No error of the model was found: a model without errors explains the band as well.")
                 + &others(found)
@@ -35,7 +34,7 @@ pub(super) fn model_errors(results: &Results) -> String {
         None if known == "none" => {
             none("The case takes the model as exact (<code>model_error = \"none\"</code>).")
         }
-        None if !is_explained => {
+        None if summary.word("/fit/verdict") == "not explained" => {
             none("Neither the noise nor errors of the model of usual size explain the band.")
         }
         None => none(
@@ -49,14 +48,14 @@ pub(super) fn model_errors(results: &Results) -> String {
     format!("{}\n{body}{}", heading("model-errors", "Errors of the model"), leverage(results))
 }
 
-/// Whether the errors are more than those of given factors.
+/// Whether errors of the model were found, and not only those of factors whose accuracy the case states.
 fn has_errors(found: &Value) -> bool {
     ["frequency_std", "shape_std", "loss_factor_std"]
         .iter()
         .any(|size| number(found, size).is_some_and(|std| std > 0.0))
 }
 
-/// What the error bars contain; `None` where there are none.
+/// What the error bars contain, as a part of a sentence; `None` if there are no error bars.
 pub(super) fn bars_contain(results: &Results) -> Option<String> {
     let summary = &results.summary.0;
     let are_found = summary.get("model_errors").is_some_and(has_errors);

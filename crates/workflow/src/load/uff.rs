@@ -30,8 +30,8 @@ pub(super) struct Index {
     entries: Vec<Entry>,
     /// Index of the dataset, and header, of every FRF.
     frfs: Vec<(usize, FunctionHeader)>,
-    /// Where each was measured: which of the FRFs.
-    measured_at: HashMap<DofName, Vec<usize>>,
+    /// Which of the FRFs were measured at a degree of freedom, with the load at another one, or anywhere (`None`).
+    between: HashMap<(DofName, Option<DofName>), Vec<usize>>,
     /// Other functions, by where they were measured and driven.
     others: HashMap<Ends, Vec<(usize, FunctionHeader)>>,
 }
@@ -48,14 +48,16 @@ impl Index {
     pub(super) fn of(bytes: &[u8]) -> Result<Self, FormatError> {
         let file = File::new(bytes)?;
         let mut frfs = Vec::new();
-        let mut measured_at: HashMap<DofName, Vec<usize>> = HashMap::new();
+        let mut between: HashMap<(DofName, Option<DofName>), Vec<usize>> = HashMap::new();
         let mut others: HashMap<Ends, Vec<(usize, FunctionHeader)>> = HashMap::new();
         let mut count = 0;
         for index in file.functions() {
             let header = file.function_header(index)?;
             if header.function_type == FunctionType::FrequencyResponse {
-                if let Some(at) = dof(&header.response) {
-                    measured_at.entry(at).or_default().push(frfs.len());
+                if let [Some(at), driven_at] = ends(&header) {
+                    let mut add = |driven_at| between.entry((at, driven_at)).or_default().push(frfs.len());
+                    add(None);
+                    driven_at.into_iter().for_each(|driven_at| add(Some(driven_at)));
                 }
                 frfs.push((index, header));
             } else {
@@ -69,7 +71,7 @@ impl Index {
                 format!("none, and {count} functions of other types"),
             ));
         }
-        Ok(Self { entries: file.entries().to_vec(), frfs, measured_at, others })
+        Ok(Self { entries: file.entries().to_vec(), frfs, between, others })
     }
 
     /// Reads the FRF of a choice from the bytes that were looked through.
@@ -129,27 +131,22 @@ impl Index {
             };
             return Ok(at.ok_or_else(refuse)? - 1);
         }
-        let agrees = |wanted: Option<DofName>, there: &uff::Dof| wanted.is_none() || wanted == dof(there);
-        let there = choice.measured_at.and_then(|wanted| self.measured_at.get(&wanted));
-        let there = there.map_or(&[][..], Vec::as_slice);
-        let mut fitting = there.iter().filter(|&&k| agrees(choice.driven_at, &frfs[k].1.reference));
-        let exchanged = || -> Option<usize> {
-            let (wanted, driven_at) = (choice.measured_at?, choice.driven_at?);
-            let there = self.measured_at.get(&driven_at)?;
-            let mut fitting = there.iter().filter(|&&k| dof(&frfs[k].1.reference) == Some(wanted));
-            fitting.next().copied().filter(|_| fitting.next().is_none())
+        let between = |ends: Option<(DofName, Option<DofName>)>| {
+            ends.and_then(|ends| self.between.get(&ends)).map_or(&[][..], Vec::as_slice)
         };
-        match (frfs.len(), fitting.next(), fitting.next()) {
-            (1, ..) => Ok(0),
-            (_, Some(&k), None) => Ok(k),
-            (_, first, _) => {
-                if let Some(k) = exchanged().filter(|_| first.is_none()) {
-                    return Ok(k);
-                }
-                let which = match (choice.measured_at, first) {
+        let fitting = between(choice.measured_at.map(|at| (at, choice.driven_at)));
+        let exchanged = || between(choice.driven_at.map(|at| (at, choice.measured_at)));
+        match (frfs.len(), fitting) {
+            (1, _) => Ok(0),
+            (_, &[k]) => Ok(k),
+            (_, fitting) => {
+                let which = match (choice.measured_at, fitting) {
                     (None, _) => "several, and no dof or record that says which",
-                    (Some(_), None) => "none with the dof and load of the case",
-                    (Some(_), Some(_)) => {
+                    (Some(_), []) => match exchanged() {
+                        &[k] => return Ok(k),
+                        _ => "none with the dof and load of the case",
+                    },
+                    (Some(_), _) => {
                         "several with the dof and load of the case, and no record that says which"
                     }
                 };

@@ -107,8 +107,8 @@ pub fn summary_json(
     summary
 }
 
-/// What the error bars contain beside one another: `noise`, `model_errors` and `known_factors`. Errors of the model are in them also where none was found but
-/// noise may hide some.
+/// Which of `noise`, `model_errors` and `known_factors` the error bars contain. They contain errors of the model also if none was found, but noise may hide
+/// some.
 fn error_bars_contain(found: &Identification) -> Vec<&'static str> {
     let values = || found.lines.iter().flat_map(|line| &line.values);
     let contains = |of: fn(&Contributions) -> f64| {

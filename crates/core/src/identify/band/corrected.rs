@@ -34,7 +34,7 @@ pub(super) fn correct<'a>(
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {
-    if options.model_errors == ModelErrors::None && !band.model.has_factor_std() {
+    if options.model_errors.is_exact(band.model) {
         return found;
     }
     let weights = Weights::new((band, unknown), at, &found.left_out());

@@ -26,7 +26,7 @@ use crate::identify::model_errors::{
     estimate_with_laws,
 };
 use crate::identify::noise::{NoiseLevel, NoiseSource, without};
-use crate::identify::options::{ModelErrors, Options};
+use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::laws::{Datum, Evidence, LawFit, LawKind, LineResidual, Parametrization, best, starts};
@@ -216,17 +216,16 @@ pub(in crate::identify) fn identify_laws<'a>(
 }
 
 impl Fitting<'_, '_> {
-    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both. A smooth modulus may hide errors
-    /// that a law does not: where a right model explains the band with the one and not with the other, they are searched with the law. Where a right model explains the band
-    /// with the law too, its error bars hold small errors.
+    /// Finds the errors of the model once more with the law of least BIC, and that law with them; its error bars have both. A smooth modulus may hide errors that
+    /// a law does not: where a right model explains the band with a smooth modulus and not with the law, the errors are searched with the law. Where a right model
+    /// explains the band with the law too, the error bars hold small errors.
     fn with_errors(
         &self,
         fits: &mut [LawFit],
         reduced: &mut Neighbourhoods<'_, '_>,
         free: &mut BandOutcome,
     ) -> Option<Estimated> {
-        let is_exact = self.options.model_errors == ModelErrors::None && !self.band.model.has_factor_std();
-        if is_exact || free.other_model {
+        if self.options.model_errors.is_exact(self.band.model) || free.other_model {
             return None;
         }
         let kind = best(fits)?.kind;
@@ -269,7 +268,7 @@ impl Fitting<'_, '_> {
         Some(errors)
     }
 
-    /// A law once more, on the model that is corrected for errors, with what they leave of the response beside the noise.
+    /// Fits a law again, on the model that is corrected for its errors. What they leave of the response counts as noise.
     fn fit_corrected(
         &self,
         before: &LawFit,

@@ -672,12 +672,12 @@ impl<'t, 'a> Search<'t, 'a> {
         })
     }
 
-    /// What is said of known factors.
+    /// The known factors whose accuracy is given.
     fn given_factors(&self) -> Vec<FactorPrior> {
         self.factors.iter().filter(|factor| factor.is_given).copied().collect()
     }
 
-    /// A model without errors but those of given factors.
+    /// The fit of a model without errors, but for those of factors whose accuracy is given.
     fn right(&self, model: &Projection, given: &[FactorPrior], start: Place) -> Option<Explained> {
         let none = Modes::none(model);
         let fitting = Fitting { factors: given, ..self.fitting(model, &none, &self.lines) };
@@ -1101,7 +1101,7 @@ impl<'a> Measured<'_, 'a> {
                     let common = fitting.in_common(true).collect();
                     let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
                     sizes.common = sizes.common.max(shown);
-                    // What shifts all natural frequencies may be without damping, or have more.
+                    // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.
                     sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * shown);
                 }
             }

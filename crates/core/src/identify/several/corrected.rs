@@ -31,8 +31,7 @@ impl Task<'_, '_> {
         mut found: SeveralOutcome,
     ) -> SeveralOutcome {
         let is_smooth = self.asked.has_smooth();
-        let is_exact = self.options.model_errors == ModelErrors::None && !self.problem.model.has_factor_std();
-        if is_exact && !is_smooth {
+        if self.options.model_errors.is_exact(self.problem.model) && !is_smooth {
             return found;
         }
         let (explanation, small, leverage) = self.errors(reduced, solution, &found);

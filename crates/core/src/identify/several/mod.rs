@@ -177,8 +177,8 @@ impl Task<'_, '_> {
         Searched { solution, right, contradicting, left_out }
     }
 
-    /// By which factors nominal values are far off, where the band is not explained and natural frequencies say that all stiffnesses together are, or a single one. What is
-    /// beyond its bounds is not searched.
+    /// By which factors nominal values are far off, where the band is not explained and natural frequencies say that all stiffnesses together are, or a single one. A
+    /// value outside the bounds of its unknown is no candidate.
     fn far(&self, reduced: &Neighbourhoods<'_>, found: &Searched) -> Option<Vec<f64>> {
         if found.right.fit.is_some_and(|fit| fit.is_explained()) {
             return None;
@@ -215,10 +215,8 @@ impl Task<'_, '_> {
             Some((far, which))
         };
         let is_within = |(far, which): &(Far, Vec<usize>)| {
-            which.iter().all(|&j| {
-                let storage = far.factor * self.nominal[middle][j].re;
-                unknowns[j].bounds.storage.is_none_or(|[low, high]| (low..=high).contains(&storage))
-            })
+            let broken = |j: usize| unknowns[j].bounds.broken_by(far.factor * self.nominal[middle][j]);
+            which.iter().all(|&j| broken(j) != Some("storage"))
         };
         let (far, which) = std::iter::once(all.clone())
             .chain(single)
