@@ -108,7 +108,10 @@ pub(super) fn planted(
         _ if count > 1 => (Fault::NoSignal, vec![dice.below(count)]),
         _ => return Ok(None),
     };
-    if before.iter().any(|one| one.fault.is_same_kind(&fault)) {
+    // The conjugate of a mobility that is then written as a receptance has the opposite sign too: a third fault.
+    let is_conjugated = before.iter().any(|one| one.fault == Fault::Conjugated);
+    let is_third = is_conjugated && matches!(fault, Fault::Quantity(_));
+    if is_third || before.iter().any(|one| one.fault.is_same_kind(&fault)) {
         return Ok(None);
     }
     let mut changed = data.clone();
@@ -129,9 +132,12 @@ pub(super) fn planted(
             *given *= TAU;
         }
     }
+    let differs = |before: &[Vec<c64>]| difference(before, &changed.written, &sensors) > VISIBLE;
     let is_visible = match fault {
         Fault::Axis | Fault::NoSignal => true,
-        _ => is_row || difference(&data.written, &changed.written, &sensors) > VISIBLE,
+        // The conjugate of a lightly damped mobility is its opposite, within the noise.
+        Fault::Conjugated => differs(&data.written) && differs(&opposite(&data.written)),
+        _ => is_row || differs(&data.written),
     };
     if !is_visible {
         return Ok(None);
@@ -204,6 +210,10 @@ fn elsewhere(
     let here = solve(&case.model, &data.experiment, &few)?;
     let there = solve(&case.model, &other, &few)?;
     Ok((difference(&here, &there, sensors) > VISIBLE).then_some(other))
+}
+
+fn opposite(values: &[Vec<c64>]) -> Vec<Vec<c64>> {
+    values.iter().map(|at| at.iter().map(|value| -value).collect()).collect()
 }
 
 /// Root mean square of ln(b/a) of some sensors.

@@ -37,6 +37,14 @@ pub const MIN_MARGIN_NATS: f64 = 15.0;
 /// A factor nearer to one than this is the calibration's or the model's mass, and no fault.
 const MIN_LN_FACTOR: f64 = 0.1;
 
+/// A factor nearer to one than this (a quarter), or a delay that turns the phase by less than this at the top of the band (rad), may still be the model's: a
+/// support that it lacks answers as a factor of 1.1 to 1.2 or as 0.4 rad, and leaves a third to a half of the misfit, where a fault of the data leaves the
+/// noise.
+/// So the misfit with it is at most a share of that without, and beside another fault it is not believed.
+const SMALL_LN_FACTOR: f64 = 0.22;
+const SMALL_DELAY_PHASE_RAD: f64 = 0.5;
+const MAX_MISFIT_RATIO_OF_SMALL: f64 = 0.25;
+
 /// A delay that turns the phase by less than this at the top of the band (rad) is a filter's, and no fault.
 const MIN_DELAY_PHASE_RAD: f64 = 0.2;
 
@@ -120,10 +128,32 @@ impl Explanation {
         let falls = |after: f64, before: f64| after <= MAX_MISFIT_RATIO * before;
         let of_all = falls(self.fitted.misfit.sigma, other.fitted.misfit.sigma);
         let own = |sensors: &[usize]| falls(self.fitted.misfit_of(sensors), other.fitted.misfit_of(sensors));
-        let new = self.edits.iter().filter(|edit| !other.edits.contains(edit)).map(|edit| &edit.sensors);
+        let new = self.edits_beside(other).map(|edit| &edit.sensors);
         let elsewhere = self.elsewhere.iter().filter(|one| !other.has(one)).map(|one| &one.sensors);
         let is_of_concerned = new.chain(elsewhere).any(|sensors| own(sensors));
         other.nats - self.nats >= nats && (of_all || is_of_concerned)
+    }
+
+    /// Changes of values that another one does not have.
+    fn edits_beside(&self, other: &Self) -> impl Iterator<Item = &Edit> {
+        self.edits.iter().filter(|edit| !other.edits.contains(edit))
+    }
+
+    /// Whether a change is a factor or a delay so small that an error of the model may answer alike.
+    fn is_small(&self, edit: &Edit) -> bool {
+        match edit.change {
+            Change::Factor => self.fitted.ln_factor.abs() < SMALL_LN_FACTOR,
+            Change::Delay => self.fitted.delay_phase_rad.abs() < SMALL_DELAY_PHASE_RAD,
+            _ => false,
+        }
+    }
+
+    /// Whether it has a small change that leaves as much as a model does that is wrong.
+    fn is_of_model(&self, as_given: &Self) -> bool {
+        self.edits.iter().filter(|edit| self.is_small(edit)).any(|edit| {
+            let [left, before] = [self, as_given].map(|one| one.fitted.misfit_of(&edit.sensors));
+            left > MAX_MISFIT_RATIO_OF_SMALL * before
+        })
     }
 
     /// Whether the misfit, of all sensors and of those that its faults concern, is small enough for an explanation.
@@ -197,7 +227,7 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
         |of: &mut dyn Iterator<Item = &'e Explanation>| of.min_by(|a, b| a.nats.total_cmp(&b.nats));
     let of_faults = |count: usize| tried.iter().filter(move |one| one.faults() == count);
     let explains = |one: &&Explanation| one.improves_on(as_given, FINDING_NATS) && one.is_explanation();
-    let single = likeliest(&mut of_faults(1).filter(explains));
+    let single = likeliest(&mut of_faults(1).filter(explains).filter(|one| !one.is_of_model(as_given)));
     // The likeliest single fault, whether or not it is a finding, or the data as given if no fault is likelier.
     let base = likeliest(&mut of_faults(1).chain([as_given])).unwrap_or(as_given);
     let is_second = |one: &&Explanation| {
@@ -209,7 +239,9 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
         };
         let is_plain = !is_unnamed
             || one.left() <= EXPLAINED_MISFIT && one.fitted.ln_factor.abs() <= MAX_UNNAMED_LN_FACTOR;
-        is_plain && one.improves_on(base, nats)
+        // What is small beside a fault is looked at when that is mended.
+        let is_small = one.edits_beside(base).any(|edit| one.is_small(edit));
+        is_plain && !is_small && one.improves_on(base, nats)
     };
     let pair = likeliest(&mut of_faults(2).filter(explains).filter(is_second));
     let best = pair.or(single)?;
@@ -227,8 +259,7 @@ pub(super) fn changes(search: &Search<'_, '_>, grid: &Grid, as_given: &Explanati
     let mut tried = single_changes(search, grid, as_given);
     let mut order: Vec<usize> = (0..tried.len()).collect();
     order.sort_by(|&a, &b| tried[a].nats.total_cmp(&tried[b].nats));
-    let is_finding =
-        |&&k: &&usize| tried[k].improves_on(as_given, FINDING_NATS) && is_large(search, &tried[k]);
+    let is_finding = |&&k: &&usize| tried[k].improves_on(as_given, FINDING_NATS) && is_large(&tried[k]);
     let found = order.iter().find(is_finding).copied();
     let left = found.map(|k| tried[k].fitted.worst());
     let firsts: Vec<usize> = match left {
@@ -244,7 +275,7 @@ pub(super) fn changes(search: &Search<'_, '_>, grid: &Grid, as_given: &Explanati
     };
     let pairs = pairs(search, grid, as_given, &tried, &firsts);
     tried.extend(pairs);
-    tried.retain(|one| is_large(search, one));
+    tried.retain(is_large);
     tried
 }
 
@@ -297,12 +328,11 @@ fn pairs(
 }
 
 /// Whether every factor and delay in it is large enough to be a fault.
-pub(super) fn is_large(search: &Search<'_, '_>, one: &Explanation) -> bool {
-    let top = crate::frequency::omega_rad_s(search.responses.frequency_hz.last().copied().unwrap_or(0.0));
+pub(super) fn is_large(one: &Explanation) -> bool {
     let has = |change: Change| one.edits.iter().any(|edit| edit.change == change);
     let [factor, delay] = [has(Change::Factor), has(Change::Delay)];
     (!factor || one.fitted.ln_factor.abs() >= MIN_LN_FACTOR)
-        && (!delay || one.fitted.delay_s.abs() >= MIN_DELAY_PHASE_RAD / top)
+        && (!delay || one.fitted.delay_phase_rad.abs() >= MIN_DELAY_PHASE_RAD)
 }
 
 #[cfg(test)]
@@ -322,7 +352,8 @@ mod tests {
         let misfit = Misfit { nats, sigma: own[0].min(own[1]) };
         // A factor has a name: in g.
         let ln_factor = KnownFactor::StandardGravity.value().ln();
-        let fitted = Fitted { moduli, ln_factor, delay_s: 0.0, misfit, own: own.to_vec(), nats };
+        let fitted =
+            Fitted { moduli, ln_factor, delay_s: 0.0, delay_phase_rad: 0.0, misfit, own: own.to_vec(), nats };
         Explanation { edits, elsewhere: Vec::new(), data_hypothesis, fitted, nats }
     }
 
@@ -371,5 +402,26 @@ mod tests {
         assert_eq!(choose(&given, std::slice::from_ref(&of_one)).unwrap().best.edits, of_one.edits);
         let of_other = explanation(&[(Change::Reversed, &[0])], 80.0, [0.01, 1.0]);
         assert!(choose(&given, &[of_other]).is_none());
+    }
+    #[test]
+    fn a_small_factor_is_believed_only_where_it_leaves_next_to_nothing() {
+        let given = explanation(&[], 500.0, [0.14; 2]);
+        let factor = |ln_factor: f64, left: f64| {
+            let mut factor = explanation(&[(Change::Factor, &[1])], 20.0, [left; 2]);
+            factor.fitted.ln_factor = ln_factor;
+            factor
+        };
+        let is_believed = |one: Explanation| choose(&given, &[one]).is_some();
+        assert!(is_believed(factor(1.19f64.ln(), 0.02)));
+        // A support that the model lacks leaves more.
+        assert!(!is_believed(factor(1.19f64.ln(), 0.06)));
+        assert!(is_believed(factor(1.5f64.ln(), 0.06)));
+        let delay = |phase: f64| {
+            let mut delay = explanation(&[(Change::Delay, &[1])], 20.0, [0.06; 2]);
+            delay.fitted.delay_phase_rad = phase;
+            delay
+        };
+        assert!(!is_believed(delay(0.4)));
+        assert!(is_believed(delay(-0.8)));
     }
 }

@@ -278,7 +278,7 @@ impl Look<'_> {
             if let Some(beside) = likeliest {
                 rows.extend(self.rows(&search, &grid, beside, &self.swept(&search, beside))?);
             }
-            tried.extend(rows.into_iter().filter(|one| explanation::is_large(&search, one)));
+            tried.extend(rows.into_iter().filter(|one| explanation::is_large(one)));
             if left(&tried, Fitted::worst) > of_rows {
                 tried.extend(self.row_pairs(&search, &as_given, &swept)?);
             }
@@ -385,7 +385,7 @@ impl Look<'_> {
                 tried.extend(self.rows(search, &grid, &alone, &self.swept(search, &alone)).ok()?);
             }
             tried.push(alone);
-            tried.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(search, one));
+            tried.retain(|one| one.faults() <= MAX_FAULTS && explanation::is_large(one));
             Some(tried)
         })
     }

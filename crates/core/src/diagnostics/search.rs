@@ -104,6 +104,8 @@ pub(super) struct Fitted {
     pub(super) moduli: Moduli,
     pub(super) ln_factor: f64,
     pub(super) delay_s: f64,
+    /// By how much the delay turns the phase at the top of the band.
+    pub(super) delay_phase_rad: f64,
     pub(super) misfit: Misfit,
     /// The misfit of each sensor for itself: the one of all leaves out a sensor that differs from most.
     pub(super) own: Vec<f64>,
@@ -360,6 +362,7 @@ impl Search<'_, '_> {
             moduli: moduli.clone(),
             ln_factor: *ln_factor,
             delay_s: *delay_s,
+            delay_phase_rad: delay_s * self.top(),
             misfit,
             own,
             nats: misfit.nats + penalty + far + BOUND_PENALTY * beyond,
