@@ -37,6 +37,7 @@ fn _frfit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(model::restored_model, module)?)?;
     module.add_function(wrap_pyfunction!(series::restored_series, module)?)?;
     module.add_function(wrap_pyfunction!(matrix::read_matrix, module)?)?;
+    module.add_function(wrap_pyfunction!(matrix::powers_of, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(case::run_case, module)?)?;
     module.add_function(wrap_pyfunction!(modes::modes, module)?)?;

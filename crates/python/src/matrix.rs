@@ -5,8 +5,8 @@ use crate::errors::{input, raise};
 use frfit_formats::{CoordinateMatrix, Entries, Symmetry};
 use frfit_linalg::sparse::SymmetricMatrix;
 use frfit_workflow::Reads;
-use frfit_workflow::load::{load_bytes, load_matrix, symmetric_matrix};
-use numpy::{Complex64, IntoPyArray, PyReadonlyArray1};
+use frfit_workflow::load::{load_bytes, load_matrix, powers_of_arrays, symmetric_matrix};
+use numpy::{Complex64, IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -81,10 +81,6 @@ pub(crate) fn read_matrix(
     name: Option<String>,
 ) -> PyResult<Bound<'_, PyDict>> {
     let matrix = at_once(py, || load_matrix(&path, name.as_deref()))?.map_err(|error| input(py, &error))?;
-    let signed = |indices: Vec<usize>| -> PyResult<_> {
-        let indices: Result<Vec<i64>, _> = indices.into_iter().map(i64::try_from).collect();
-        Ok(indices?.into_pyarray(py))
-    };
     let found = PyDict::new(py);
     found.set_item("shape", (matrix.nrows, matrix.ncols))?;
     found.set_item("title", &matrix.title)?;
@@ -100,7 +96,39 @@ pub(crate) fn read_matrix(
         Entries::Real(values) => found.set_item("values", values.into_pyarray(py))?,
         Entries::Complex(values) => found.set_item("values", values.into_pyarray(py))?,
     }
-    found.set_item("rows", signed(matrix.rows)?)?;
-    found.set_item("cols", signed(matrix.cols)?)?;
+    found.set_item("rows", signed(py, matrix.rows)?)?;
+    found.set_item("cols", signed(py, matrix.cols)?)?;
     Ok(found)
+}
+
+/// Indices in the 64 bits that SciPy takes.
+fn signed(py: Python<'_>, indices: Vec<usize>) -> PyResult<Bound<'_, PyArray1<i64>>> {
+    let indices: Result<Vec<i64>, _> = indices.into_iter().map(i64::try_from).collect();
+    Ok(indices?.into_pyarray(py))
+}
+
+/// Value of a dimension, name, shape, data, indices, column pointers.
+type Sample<'py> = (f64, String, [usize; 2], Data<'py>, Indices<'py>, Indices<'py>);
+
+/// Positions of the lower triangle, and values.
+type Part<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
+
+/// A matrix at several values of a dimension by the powers of it.
+#[pyfunction]
+pub(crate) fn powers_of<'py>(
+    py: Python<'py>,
+    matrices: Vec<Sample<'py>>,
+    powers: Option<Vec<i32>>,
+) -> PyResult<Vec<(i32, Part<'py>)>> {
+    let sample = |(value, name, shape, data, indices, indptr): Sample<'py>| {
+        Ok((value, symmetric(py, &name, Symmetry::General, shape, &data, &indices, &indptr)?))
+    };
+    let samples = matrices.into_iter().map(sample).collect::<PyResult<Vec<_>>>()?;
+    let parts = at_once(py, || powers_of_arrays(&samples, powers))?.map_err(|error| input(py, &error))?;
+    let part = |(power, matrix): (i32, SymmetricMatrix)| {
+        let (rows, cols) = matrix.pattern().positions().unzip();
+        let values = matrix.real_values().unwrap_or_default().to_vec();
+        Ok((power, (signed(py, rows)?, signed(py, cols)?, values.into_pyarray(py))))
+    };
+    parts.into_iter().map(part).collect()
 }

@@ -6,6 +6,8 @@ import subprocess
 
 import numpy as np
 import pytest
+import scipy.io
+import scipy.sparse as sp
 from conftest import Chain, same_columns
 from test_case import table
 from test_case_and_arrays import BOUNDS, LAW, NOMINAL, ROWS, SHARE, F, case_file, measurements
@@ -125,6 +127,60 @@ def test_every_command_agrees_with_the_arrays(cli, case, found, tmp_path):
     assert 'id="plot-modulus-1"' in page and "density and width are known for the whole band" in page
     run(cli, "report", out)
     assert (out / "report.html").read_text() == page
+
+
+def test_a_matrix_at_several_widths_is_that_of_a_case(case, measured):
+    """Dashpots that grow with the square of the width, given at two widths by files and by arrays."""
+    chain, widths = Chain(), (0.8, 1.2)
+    files = []
+    for width in widths:
+        files.append(f"dashpots-{width}.mtx")
+        matrix = sp.coo_array(width**2 * chain.viscous)
+        scipy.io.mmwrite(case.with_name(files[-1]), matrix, symmetry="symmetric", precision=17)
+    at = f'at = {{ dimension = "width", powers = [2], values = {list(widths)}, files = {files} }}'.replace("'", '"')
+    path = case.with_name("at.toml")
+    path.write_text(case.read_text().replace('file = "viscous.mtx"', at).replace("powers = { dashpots = 2 }\n", ""))
+    by_case = frfit.run_case(path)
+
+    parts = frfit.powers_of({width: width**2 * chain.viscous for width in widths}, powers=[2])
+    assert list(parts) == [2]
+    np.testing.assert_allclose(parts[2].toarray(), chain.viscous.toarray(), rtol=1e-15)
+    chain.viscous = parts[2]
+    by_arrays = frfit.identify(
+        chain.model(NOMINAL),
+        measurements(*measured, ({}, {})),
+        load=0,
+        band_hz=(F[0], F[-1]),
+        unknowns=[
+            frfit.Unknown("modulus", matrix="springs", bounds=BOUNDS),
+            frfit.Unknown("density", matrix="mass", varies="constant", real=True, bounds=(0.5, 2.0)),
+            frfit.Unknown("width", powers={"dashpots": 2}, nominal=1.0, bounds=(0.5, 2.0)),
+        ],
+    )
+    same_columns(by_case, by_arrays)
+
+
+@pytest.mark.parametrize(
+    ("matrices", "powers", "error", "message"),
+    [
+        ({}, None, frfit.InputError, "from 3 to 10 values"),
+        ({1.0: 1.0, 2.0: 1.0}, [1, 3], frfit.InputError, "matrices: expected 3 values: one for each of 2 powers"),
+        ({1.0: 1.0, 2.0: 2.0, 3.0: 9.0}, None, frfit.InputError, "a polynomial of degree 1 in the dimension"),
+        ({1.0: 1.0, 2.0: 2.0, 3.0: 9.0}, [1, 3], frfit.InputError, "powers 1, 3 of the dimension"),
+        ({0.0: 1.0, 2.0: 1.0, 3.0: 1.0}, [1, 3], frfit.InputError, "values above 0, each once, found 0"),
+        ({1.0: 1.0, 2.0: np.eye(2), 3.0: 1.0}, None, frfit.InputError, "matrices of 1 rows, as at 1, found 2 at 2"),
+        ({1.0: 1.0, 2.0: 1j, 3.0: 1.0}, None, frfit.InputError, "real matrices"),
+        ({1.0: 1.0, 2.0: [[1.0, 2.0]], 3.0: 1.0}, None, frfit.MatrixError, "matrix 'at 2': expected a square matrix"),
+        ({float("inf"): 1.0}, None, frfit.InputError, "finite values of the dimension, found inf"),
+        ({1.0: 1.0, 2.0: 1.0}, [13], frfit.InputError, "powers: expected whole numbers from -12 to 12, found 13"),
+        ({1.0: 1.0, 2.0: 1.0, 3.0: 1.0}, [1, 1], frfit.InputError, "each once, found [1, 1]"),
+        ([1.0], None, frfit.InputError, "a dictionary of values and matrices"),
+    ],
+)
+def test_matrices_without_such_powers_are_refused(matrices, powers, error, message):
+    with pytest.raises(error) as refused:
+        frfit.powers_of(matrices, powers=powers)
+    assert message in str(refused.value)
 
 
 def test_what_is_wrong_with_an_unknown_is_said(measured):

@@ -31,7 +31,7 @@ from ._errors import (
 )
 from ._frfit import Law, Series, __version__
 from ._identify import CoarserMesh, Measurement, Unknown, identify, run_case
-from ._matrix import read_matrix
+from ._matrix import powers_of, read_matrix
 from ._model import Attached, Model, Term, respond, series
 from ._modes import Modes, modes
 from ._report import Report
@@ -120,6 +120,7 @@ __all__ = [
     "inspect",
     "modes",
     "natural_frequencies",
+    "powers_of",
     "read_matrix",
     "read_uff",
     "respond",

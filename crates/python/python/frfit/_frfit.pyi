@@ -32,6 +32,7 @@ __all__ = [
     "modes_of_arrays",
     "modes_of_model",
     "natural_frequencies",
+    "powers_of",
     "read_matrix",
     "readable",
     "report",
@@ -121,6 +122,9 @@ def restored_series(
     scale: float, nominal: complex, coefficients: _Complex, radius: tuple[float, float, bool]
 ) -> Series: ...
 def readable(path: _Path) -> None: ...
+def powers_of(
+    matrices: list[tuple[float, str, tuple[int, int], Any, Any, Any]], powers: list[int] | None
+) -> list[tuple[int, tuple[Any, Any, Any]]]: ...
 def read_matrix(path: _Path, name: str | None) -> dict[str, Any]: ...
 def identify(
     model: Model,

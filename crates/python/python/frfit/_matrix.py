@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
 from . import _frfit
-from ._arrays import shown
+from ._arrays import hints, number, refuse, several, shown, whole
 from ._errors import MatrixError
 
 
@@ -57,6 +58,73 @@ def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
         rows, cols = np.concatenate([rows, cols[below]]), np.concatenate([cols, rows[below]])
         values = np.concatenate([values, mirror])
     return sp.csc_array((values, (rows, cols)), shape=found["shape"])
+
+
+@hints
+def powers_of(matrices: Mapping[float, Any], powers: Sequence[int] | None = None) -> dict[int, Any]:
+    """A matrix that depends on a dimension, as a sum of its powers: K(p) = sum of p**q K_q.
+
+    As ``at`` of a matrix in a case file. The parts become terms of a model, and the dimension an :class:`Unknown` with
+    their powers. The sum goes through the matrices at all values but the middle one, which it has to meet to 1e-6 of
+    its largest entry.
+
+    Parameters
+    ----------
+    matrices
+        The matrix at each value of the dimension: real, symmetric, all of one size. One value more than there are
+        powers; 3 to 10 values without ``powers``.
+    powers
+        The powers of the dimension in the matrix; 0, 1, 2 and so on where there are none. A solid's stiffness has
+        -1, 0 and 1 of its thickness, a plate's 1 and 3, a mass 1.
+
+    Returns
+    -------
+    dict
+        K_q by its power q, a ``scipy.sparse.csc_array`` each; powers whose part is rounding are left out.
+
+    Raises
+    ------
+    MatrixError
+        A matrix that is not square, symmetric or finite.
+    InputError
+        Too few values, one twice, or a matrix at the middle value that the sum does not meet.
+
+    Examples
+    --------
+    A plate with K = h K_1 + h**3 K_3, assembled at three thicknesses:
+
+    >>> import numpy as np
+    >>> k1, k3 = np.diag([4.0, 9.0]), np.array([[2.0, -1.0], [-1.0, 2.0]])
+    >>> parts = powers_of({h: h * k1 + h**3 * k3 for h in (1.0, 2.0, 3.0)}, powers=[1, 3])
+    >>> {power: part.toarray().round(9).tolist() for power, part in parts.items()}
+    {1: [[4.0, 0.0], [0.0, 9.0]], 3: [[2.0, -1.0], [-1.0, 2.0]]}
+    """
+    if not isinstance(matrices, Mapping):
+        raise refuse("matrices", "a dictionary of values and matrices", shown(matrices))
+    plain = []
+    for value, matrix in matrices.items():
+        p = number(value, "matrices", "a value of the dimension")
+        if not np.isfinite(p):
+            raise refuse("matrices", "finite values of the dimension", shown(value))
+        name = f"at {p:g}"
+        glanced_at(matrix, name)
+        plain.append((p, name, *compressed(matrix, name)))
+    wanted = None
+    if powers is not None:
+        wanted = [whole(power, "powers") for power in several(powers, "powers", "a sequence of whole numbers")]
+        for power in wanted:
+            if abs(power) > 12:
+                raise refuse("powers", "whole numbers from -12 to 12", str(power))
+    parts = _frfit.powers_of(plain, wanted)
+    size = plain[0][2]
+    return {power: _whole(rows, cols, values, size) for power, (rows, cols, values) in parts}
+
+
+def _whole(rows: Any, cols: Any, values: Any, shape: Any) -> Any:
+    """A symmetric matrix of one of its triangles."""
+    below = rows != cols
+    rows, cols = np.concatenate([rows, cols[below]]), np.concatenate([cols, rows[below]])
+    return sp.csc_array((np.concatenate([values, values[below]]), (rows, cols)), shape=shape)
 
 
 def compressed(matrix: Any, name: str) -> tuple[Any, Any, Any, Any]:

@@ -23,5 +23,5 @@ pub(crate) use launcher::DEFAULT as DEFAULT_LAUNCH;
 pub(crate) use parse::law_of_snippet;
 pub use parse::parse;
 pub use reference::reference;
-pub(crate) use sections::checked_band;
+pub(crate) use sections::{are_powers, check_values, checked_band, expected_powers};
 pub use snippet::{law_keys, snippet};

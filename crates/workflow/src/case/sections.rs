@@ -77,24 +77,37 @@ fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
     let numbers = values.each("a list of numbers", |field| field.number())?;
     let files = table.need("files")?.texts()?;
     let powers = table.find("powers").map(|field| at_powers(&field)).transpose()?;
-    match &powers {
-        Some(powers) if numbers.len() != powers.value.len() + 1 => {
-            let count = powers.value.len();
+    check_values(&numbers, &values.place, powers.as_ref().map(|powers| &powers.value[..]))?;
+    if files.len() != numbers.len() {
+        let expected = format!("{} files, one for each value", numbers.len());
+        return Err(InputError::at(&table.need("files")?.place, expected, files.len().to_string()));
+    }
+    Ok(AtValues {
+        dimension: table.need("dimension")?.text()?,
+        files: numbers.into_iter().zip(files).collect(),
+        powers,
+    })
+}
+
+/// Refuses values of a dimension of which no matrix can be told by its powers: 0, 1, 2 and so on without `powers`.
+///
+/// # Errors
+/// Too few values or too many, one that stands twice, or one that has not these powers.
+pub(crate) fn check_values(numbers: &[f64], place: &Place, powers: Option<&[i32]>) -> Result<(), InputError> {
+    match powers {
+        Some(powers) if numbers.len() != powers.len() + 1 => {
+            let count = powers.len();
             let expected =
                 format!("{} values: one for each of {count} powers, and one that checks them", count + 1);
-            return Err(InputError::at(&values.place, expected, numbers.len().to_string()));
+            return Err(InputError::at(place, expected, numbers.len().to_string()));
         }
         None if numbers.len() < LEAST_VALUES || numbers.len() > MOST_VALUES => {
             let expected = format!(
                 "from {LEAST_VALUES} to {MOST_VALUES} values: a polynomial goes through all but one, which checks it"
             );
-            return Err(InputError::at(&values.place, expected, numbers.len().to_string()));
+            return Err(InputError::at(place, expected, numbers.len().to_string()));
         }
         _ => {}
-    }
-    if files.len() != numbers.len() {
-        let expected = format!("{} files, one for each value", numbers.len());
-        return Err(InputError::at(&table.need("files")?.place, expected, files.len().to_string()));
     }
     // With powers a matrix of two values of opposite sign may be the same one twice, and a negative power of zero does not exist.
     let (allowed, expected): (fn(f64) -> bool, _) = match powers {
@@ -103,13 +116,9 @@ fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
     };
     let wrong = |k: &usize| numbers[..*k].contains(&numbers[*k]) || !allowed(numbers[*k]);
     if let Some(k) = (0..numbers.len()).find(wrong) {
-        return Err(InputError::at(&values.place, expected, numbers[k].to_string()));
+        return Err(InputError::at(place, expected, numbers[k].to_string()));
     }
-    Ok(AtValues {
-        dimension: table.need("dimension")?.text()?,
-        files: numbers.into_iter().zip(files).collect(),
-        powers,
-    })
+    Ok(())
 }
 
 /// The largest power of a dimension, and its least.
@@ -121,19 +130,28 @@ const MOST_VALUES: usize = 10;
 
 /// `powers = [-1, 0, 1]` of `at`: each once.
 fn at_powers(field: &Field<'_>) -> Result<Located<Vec<i32>>, InputError> {
-    let expected = format!("a list of 1 to {} whole numbers, each once", MOST_VALUES - 1);
-    let powers = field.each(&expected, |item| {
+    let powers = field.each(&expected_powers(), |item| {
         let power = item.whole()?.value;
         match (-MOST_POWER..=MOST_POWER).contains(&power) {
             true => Ok(power as i32),
             false => Err(item.refuse(&format!("a whole number from -{MOST_POWER} to {MOST_POWER}"))),
         }
     })?;
-    let twice = (1..powers.len()).any(|k| powers[..k].contains(&powers[k]));
-    if twice || powers.is_empty() || powers.len() >= MOST_VALUES {
-        return Err(field.refuse(&expected));
+    match are_powers(&powers) {
+        true => Ok(Located { value: powers, place: field.place.clone() }),
+        false => Err(field.refuse(&expected_powers())),
     }
-    Ok(Located { value: powers, place: field.place.clone() })
+}
+
+/// What `powers` of a dimension have to be.
+pub(crate) fn expected_powers() -> String {
+    format!("a list of 1 to {} whole numbers, each once", MOST_VALUES - 1)
+}
+
+/// Whether a list is one of different powers, not too many.
+pub(crate) fn are_powers(powers: &[i32]) -> bool {
+    let twice = (1..powers.len()).any(|k| powers[..k].contains(&powers[k]));
+    !twice && !powers.is_empty() && powers.len() < MOST_VALUES
 }
 
 /// A file of one matrix, or a file and the name of one of its matrices.

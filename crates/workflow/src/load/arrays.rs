@@ -1,6 +1,6 @@
 //! From what a program holds in memory to a case: the same checks and conversions as for one read from files.
 
-use super::dimension::PartOf;
+use super::dimension::{PartOf, polynomial};
 use super::files::NamedFile;
 use super::frf::Frf;
 use super::identify::{Given, IdentifyCase, put_together};
@@ -9,7 +9,10 @@ use super::measurement::{Curve, Decay, Measurement, SensorInfo, common_decay, me
 use super::options::{chosen, options};
 use super::sensitivities::SensitivitiesCase;
 use super::unknowns::{known_have_std, unknowns};
-use crate::case::{Exclusion, IdentifyEntry, Located, UnknownEntry, checked_band, variation};
+use crate::case::{
+    Exclusion, IdentifyEntry, Located, UnknownEntry, are_powers, check_values, checked_band, expected_powers,
+    variation,
+};
 use crate::error::{InputError, Place};
 use crate::units::UnitSystem;
 use frfit::c64;
@@ -19,6 +22,7 @@ use frfit::model::{DynamicStiffness, Experiment, ModelError, Parameter, Sensor, 
 use frfit::quantity::Quantity;
 use frfit::roots::{Bounds, BoundsError};
 use frfit_formats::FormatError;
+use frfit_linalg::sparse::SymmetricMatrix;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -279,6 +283,29 @@ fn case(
         modes: None,
         respond_hz,
     }
+}
+
+/// K_q of K(p) = Σ_q p^q K_q, as `at` of a matrix in a case file, from the matrix at several values p of a dimension.
+///
+/// # Errors
+/// [`InputError`]: values or powers that are too few, too many or twice, matrices of different size, or one that does not fit the others.
+pub fn powers_of_arrays(
+    samples: &[(f64, SymmetricMatrix)],
+    powers: Option<Vec<i32>>,
+) -> Result<Vec<(i32, SymmetricMatrix)>, InputError> {
+    let place = argument("matrices");
+    if let Some(powers) = powers.as_ref().filter(|powers| !are_powers(powers)) {
+        return Err(InputError::at(&argument("powers"), expected_powers(), format!("{powers:?}")));
+    }
+    let values: Vec<f64> = samples.iter().map(|(value, _)| *value).collect();
+    check_values(&values, &place, powers.as_deref())?;
+    let dim = samples[0].1.dim();
+    if let Some((value, other)) = samples.iter().find(|(_, matrix)| matrix.dim() != dim) {
+        let expected = format!("matrices of {dim} rows, as at {}", values[0]);
+        return Err(InputError::at(&place, expected, format!("{} at {value}", other.dim())));
+    }
+    let powers = powers.map(|value| Located { value, place: argument("powers") });
+    polynomial(samples, powers.as_ref(), &Located { value: "the dimension".to_owned(), place })
 }
 
 /// An argument, in the words of an error.

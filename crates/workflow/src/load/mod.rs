@@ -29,7 +29,7 @@ mod uff;
 mod unknowns;
 
 pub use arrays::{
-    ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, response_of_arrays,
+    ArraysError, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays, powers_of_arrays, response_of_arrays,
     sensitivities_of_arrays,
 };
 pub use band::MeasuredNoise;
