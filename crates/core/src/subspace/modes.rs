@@ -287,7 +287,9 @@ impl Projection {
         points: &[Point<'_>],
         tolerance: f64,
     ) -> Option<(Self, Modes)> {
-        let (local, basis) = self.localised_with(points, tolerance, &modes.shapes)?;
+        let (local, basis) = self
+            .localised_with(points, tolerance, &modes.shapes)
+            .or_else(|| self.localised_by_principal_directions(points, tolerance, &modes.shapes))?;
         let along =
             |x: &Vec<f64>| basis.chunks_exact(self.size.max(1)).map(|w| transpose_dot(w, x)).collect();
         let mut of_local = modes.clone();
