@@ -74,7 +74,7 @@ def powers_of(matrices: Mapping[float, Any], powers: Sequence[int] | None = None
         The matrix at each value of the dimension: real, symmetric, all of one size. One value more than there are
         powers; 3 to 10 values without ``powers``.
     powers
-        The powers of the dimension in the matrix; 0, 1, 2 and so on where there are none. A solid's stiffness has
+        The powers of the dimension in the matrix; without them 0, 1, 2 and so on. A solid's stiffness has
         -1, 0 and 1 of its thickness, a plate's 1 and 3, a mass 1.
 
     Returns
