@@ -278,7 +278,7 @@ impl Look<'_> {
             if let Some(beside) = likeliest {
                 rows.extend(self.rows(&search, &grid, beside, &self.swept(&search, beside))?);
             }
-            tried.extend(rows.into_iter().filter(|one| explanation::is_large(one)));
+            tried.extend(rows.into_iter().filter(explanation::is_large));
             if left(&tried, Fitted::worst) > of_rows {
                 tried.extend(self.row_pairs(&search, &as_given, &swept)?);
             }
