@@ -892,6 +892,40 @@ fn a_suspension_that_the_model_lacks_is_found() {
     assert!(errors.modes[0].error > 0.01, "{errors:?}");
 }
 
+/// A lightly damped beam hangs on soft springs with damping, and the model has none. They damp the lowest mode, and a curve takes that for the beam: its bars hold it.
+#[test]
+fn a_smooth_loss_factor_holds_what_a_suspension_damps() {
+    let beam = c64::new(7e10, 7e10 * 3e-3);
+    let truth = Law::Constant(beam);
+    let on_springs = |stiffness: c64| {
+        let (model, experiment) = sprung(16, [beam, stiffness, c64::new(2700.0, 0.0)], &[0.8, 0.4, 0.2]);
+        let parameter = Parameter::factor_of(&model, &["beam"]).unwrap();
+        Case { name: "suspended", model, experiment, parameter, band_hz: [5.0, 300.0], box_ratio: [0.5, 2.0] }
+    };
+    let springs = on_springs(c64::new(6.0, 1.8));
+    let measured = Measured::on(&springs, &truth, linear_hz(15.0, 300.0, 160), 0.01, 4);
+    let found = measured.identified(&on_springs(c64::default()), Variation::Smooth, ModelErrors::Estimated);
+    assert!(found.model_errors.is_some());
+    let known = |line: &&Line| line.status == Status::Ok;
+    let off = |line: &Line| (loss_factor(line.factor().unwrap()) - 3e-3).abs();
+    let std = |line: &Line| line.uncertainty().unwrap().loss_factor_std.unwrap();
+    for line in &found.lines {
+        println!(
+            "{} {:?} {:e} {:e}",
+            line.frequency_hz,
+            line.status,
+            loss_factor(line.factor().unwrap()),
+            std(line)
+        );
+    }
+    assert!(found.lines.iter().filter(known).all(|line| off(line) < 3.0 * std(line)));
+    // Above the lowest modes it is known.
+    let ok = found.lines.iter().filter(known).filter(|line| line.frequency_hz > 100.0).count();
+    assert!(ok > 60, "{ok}");
+    // Without that the curve is far off at the lowest mode.
+    assert!(off(&found.lines[3]) > 1e-3, "{}", off(&found.lines[3]));
+}
+
 /// A right model keeps its values and statuses to the last bit. Its bars hold errors that noise hides, and are little wider for it.
 #[test]
 fn a_right_model_is_left_as_it_is() {

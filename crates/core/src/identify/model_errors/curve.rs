@@ -342,6 +342,29 @@ impl Curves {
         }
     }
 
+    /// The coordinates of the phase of a smooth unknown at its knots; `None` of a real one and of any other.
+    pub(super) fn phases(&self, unknown: usize) -> Option<Range<usize>> {
+        match &self.each[unknown] {
+            (Curve::Spline(spline), range) if !spline.is_real() => {
+                Some(range.start + spline.knots()..range.end)
+            }
+            _ => None,
+        }
+    }
+
+    /// What θ or a step of it is of the phase of a smooth unknown at a line.
+    pub(super) fn phase_at(&self, unknown: usize, theta: &[f64], line: usize) -> f64 {
+        match &self.each[unknown] {
+            (Curve::Spline(spline), range) => spline.log(&theta[range.clone()], line).im,
+            _ => 0.0,
+        }
+    }
+
+    /// How many unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        self.each.len()
+    }
+
     /// Everything at a line; `None` where a number is not finite.
     pub(super) fn values(&self, theta: &[f64], line: usize, omega: f64) -> Option<Values> {
         let (mut values, mut slopes) = (Vec::with_capacity(self.each.len()), Vec::with_capacity(theta.len()));

@@ -24,6 +24,7 @@ mod leverage;
 mod local_stiffness;
 mod mesh;
 mod mesh_scatter;
+mod modal_loss;
 mod paired;
 mod scatter;
 mod search;
@@ -58,6 +59,7 @@ use std::f64::consts::TAU;
 use frfit_linalg::dense::Cholesky;
 use local_stiffness::add_local_compliance;
 use mesh::BetweenMeshes;
+use modal_loss::add_modal_loss;
 use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
 use small_errors::{About, SmallErrors};
 
@@ -1140,11 +1142,14 @@ impl<'a> Measured<'_, 'a> {
         let found = fitting.descend(wrong.found.place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
         let whole = found.normal.with_prior(&precision);
         let inverse = Cholesky::new(fitting.count(), &whole).ok()?.inverse();
+        let sizes = wrong.sizes;
         let estimated = self.estimated(fitting, Explained { found, ..wrong }, &inverse);
         let mut estimated = Estimated { evidence, ..estimated };
         if fitting.modes() > 0 {
             let (count, theta) = (estimated.count(), estimated.theta().to_vec());
             add_local_compliance(&mut estimated.covariance, count, fitting, &theta)?;
+            let first_error = estimated.first_of_modes();
+            add_modal_loss(&mut estimated.covariance, (count, first_error), fitting, &theta, sizes);
         }
         Some(estimated)
     }
