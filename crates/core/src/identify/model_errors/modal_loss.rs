@@ -3,7 +3,7 @@
 //! A support that gives and the air damp each mode in their own way. A curve through the loss factors of few modes takes that for the material. Of errors δ of natural
 //! frequencies a stiffness that is not in the model has 2δ of the strain energy, and with its own loss factor η_s adds 2δ η_s. So what the curve is off its level,
 //! up to that, may be of the modes: the covariance has the step to the level, in which the response stays the same,
-//! $\varphi(\omega) \\to \bar\varphi$ and $\eta_i \\to \eta_i \\, (1 + (\varphi(\omega_i) - \bar\varphi)/\bar\varphi)$.
+//! $\varphi(\omega) \\to \bar\varphi$ and $\eta_i \\to \eta_i \\, (1 + (\varphi(\omega_i) - \bar\varphi)/\varphi(\omega_i))$.
 //!
 //! # Limits
 //! What all modes have in common is no part of it (`common_loss`). A right model has no such errors: a support that damps and does not give is not seen.
