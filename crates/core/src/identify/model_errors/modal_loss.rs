@@ -14,6 +14,9 @@ use super::search::Fitting;
 /// η_s: rubber has more, a clamp of steel less.
 const LOSS_FACTOR_OF_MISSING_STIFFNESS: f64 = 0.3;
 
+/// Standard deviations that a curve is off its level by chance.
+const SIGNIFICANT_STD: f64 = 2.0;
+
 /// Adds that step to the covariance of θ and the errors, n × n, where the only unknown is a smooth stiffness with damping. Errors of stiffness begin at `first_error`.
 pub(super) fn add_modal_loss(
     covariance: &mut [f64],
@@ -28,16 +31,18 @@ pub(super) fn add_modal_loss(
     };
     let share = 2.0 * sizes.frequency.hypot(sizes.common);
     let most = LOSS_FACTOR_OF_MISSING_STIFFNESS * share;
-    // The level is that of the knots that are known best, and as uncertain as the mean of numbers that scatter as they do.
-    let weights: Vec<f64> = knots.clone().map(|k| 1.0 / covariance[k * n + k]).collect();
+    // The level is that of the knots that are known best, and as uncertain as the mean of numbers that scatter as they do. What the data leave open is no distance from it.
+    let variances: Vec<f64> = knots.clone().map(|k| covariance[k * n + k]).collect();
     let phases = &theta[knots.clone()];
-    let mean = |of: &dyn Fn(f64) -> f64| -> f64 {
-        let sum: f64 = weights.iter().zip(phases).map(|(weight, phase)| weight * of(*phase)).sum();
-        sum / weights.iter().sum::<f64>()
+    let weights = || variances.iter().map(|variance| 1.0 / variance);
+    let level = weights().zip(phases).map(|(w, phase)| w * phase).sum::<f64>() / weights().sum::<f64>();
+    let beyond = |(phase, variance): (&f64, &f64)| {
+        let square = (level - phase).powi(2) - SIGNIFICANT_STD.powi(2) * variance;
+        square.max(0.0).sqrt().min(most).copysign(level - phase)
     };
-    let level = mean(&|phase| phase);
-    let of_level = (mean(&|phase| (phase - level).powi(2)) / phases.len() as f64).sqrt().min(most);
-    let to_level = phases.iter().map(|phase| (level - phase).clamp(-most, most)).collect();
+    let to_level: Vec<f64> = phases.iter().zip(&variances).map(beyond).collect();
+    let squares = weights().zip(&to_level).map(|(w, step)| w * step * step).sum::<f64>();
+    let of_level = (squares / weights().sum::<f64>() / phases.len() as f64).sqrt();
     for of_knots in [to_level, vec![of_level; knots.len()]] {
         let mut step = vec![0.0; n];
         step[knots.clone()].copy_from_slice(&of_knots);
