@@ -914,8 +914,9 @@ fn a_smooth_loss_factor_holds_what_a_suspension_damps() {
     // Above the lowest modes it is known.
     let ok = found.lines.iter().filter(known).filter(|line| line.frequency_hz > 100.0).count();
     assert!(ok > 60, "{ok}");
-    // Without that the curve is far off at the lowest mode.
-    assert!(off(&found.lines[3]) > 1e-3, "{}", off(&found.lines[3]));
+    // At the lowest mode the curve is far off. The modulus is known there: lines are ok with a long bar of their loss factor.
+    let long = found.lines.iter().filter(known).filter(|line| off(line) > 5e-4 && std(line) > 6e-4);
+    assert!(long.count() > 5);
 }
 
 /// A right model keeps its values and statuses to the last bit. Its bars hold errors that noise hides, and are little wider for it.

@@ -143,10 +143,17 @@ impl Uncertainty {
 
     /// Whether the factor is identifiable from the measurement: its modulus, and its loss factor where it may have one.
     pub fn is_known(&self, factor: c64) -> bool {
-        let is_known = |value: f64, std: f64, least: f64| {
-            std <= KNOWN_RELATIVE_STD * (value - KNOWN_LOWER_END_STD * std).max(least)
-        };
-        let loss = |std: f64| is_known(loss_factor(factor).abs(), std, MIN_KNOWN_LOSS_FACTOR);
-        is_known(factor.norm(), self.correction_std, 0.0) && self.loss_factor_std.is_none_or(loss)
+        let loss = |std: f64| is_within(loss_factor(factor).abs(), std, MIN_KNOWN_LOSS_FACTOR);
+        self.is_modulus_known(factor) && self.loss_factor_std.is_none_or(loss)
     }
+
+    /// Whether its modulus is, whatever is known of its loss factor.
+    pub(super) fn is_modulus_known(&self, factor: c64) -> bool {
+        is_within(factor.norm(), self.correction_std, 0.0)
+    }
+}
+
+/// Whether a standard deviation is small enough beside a value, or beside the least that counts.
+fn is_within(value: f64, std: f64, least: f64) -> bool {
+    std <= KNOWN_RELATIVE_STD * (value - KNOWN_LOWER_END_STD * std).max(least)
 }

@@ -114,11 +114,12 @@ pub(super) fn on_corrected<'a>(
     let corrected = reduced.corrected().map(|corrected| (reduced.whole(), corrected));
     errors.bars_over_noise =
         corrected.and_then(|corrected| widen(&mut outcome, &errors, at, corrected, &sigma, context));
+    // What noise leaves of the loss factor is decided already. Errors of the model make its bar longer, and the modulus may be known all the same.
     for line in outcome.lines.iter_mut().filter(|line| line.status == Status::Ok) {
         let is_known = line
             .factor()
             .zip(line.uncertainty())
-            .is_none_or(|(f, bars)| bars.is_known(f) && bars.is_linear());
+            .is_none_or(|(f, bars)| bars.is_modulus_known(f) && bars.is_linear());
         if !is_known {
             line.status = Status::NotIdentifiable;
         }
