@@ -49,11 +49,10 @@ def measured():
     return exact + std * noise / np.sqrt(2), std
 
 
-@pytest.fixture(scope="module")
-def found(measured):
-    """From arrays."""
+def identified(chain, measured):
+    """All three, from arrays."""
     return frfit.identify(
-        Chain().model(NOMINAL),
+        chain.model(NOMINAL),
         measurements(*measured, ({}, {})),
         load=0,
         band_hz=(F[0], F[-1]),
@@ -63,6 +62,11 @@ def found(measured):
             frfit.Unknown("width", powers={"dashpots": 2}, nominal=1.0, bounds=(0.5, 2.0)),
         ],
     )
+
+
+@pytest.fixture(scope="module")
+def found(measured):
+    return identified(Chain(), measured)
 
 
 @pytest.fixture(scope="module")
@@ -146,18 +150,7 @@ def test_a_matrix_at_several_widths_is_that_of_a_case(case, measured):
     assert list(parts) == [2]
     np.testing.assert_allclose(parts[2].toarray(), chain.viscous.toarray(), rtol=1e-15)
     chain.viscous = parts[2]
-    by_arrays = frfit.identify(
-        chain.model(NOMINAL),
-        measurements(*measured, ({}, {})),
-        load=0,
-        band_hz=(F[0], F[-1]),
-        unknowns=[
-            frfit.Unknown("modulus", matrix="springs", bounds=BOUNDS),
-            frfit.Unknown("density", matrix="mass", varies="constant", real=True, bounds=(0.5, 2.0)),
-            frfit.Unknown("width", powers={"dashpots": 2}, nominal=1.0, bounds=(0.5, 2.0)),
-        ],
-    )
-    same_columns(by_case, by_arrays)
+    same_columns(by_case, identified(chain, measured))
 
 
 @pytest.mark.parametrize(

@@ -403,6 +403,7 @@ mod tests {
         let of_other = explanation(&[(Change::Reversed, &[0])], 80.0, [0.01, 1.0]);
         assert!(choose(&given, &[of_other]).is_none());
     }
+
     #[test]
     fn a_small_factor_is_believed_only_where_it_leaves_next_to_nothing() {
         let given = explanation(&[], 500.0, [0.14; 2]);

@@ -38,8 +38,7 @@ impl Projection {
         tolerance: f64,
         vectors: &[Vec<f64>],
     ) -> Option<(Self, Vec<f64>)> {
-        let mut directions = Vec::new();
-        vectors.iter().for_each(|vector| append_real(&mut directions, vector.clone()));
+        let mut directions = orthonormal(vectors);
         let mut done = vec![false; points.len()];
         let all: Vec<usize> = (0..points.len()).collect();
         let mut watched = all.clone();
@@ -56,7 +55,7 @@ impl Projection {
                     solved.solutions.iter().for_each(|y| append(&mut directions, y));
                 }
             }
-            if directions.is_empty() || directions.len() as f64 > MAX_COMPRESSED_SHARE * self.size as f64 {
+            if directions.is_empty() || self.saves_nothing(&directions) {
                 return None;
             }
             let basis = directions.concat();
@@ -81,9 +80,7 @@ impl Projection {
             watched = bad.into_iter().map(|(i, _)| i).collect();
         }
     }
-}
 
-impl Projection {
     /// As [`Self::localised_with`], for many sensors: their solutions at all points differ little, and the principal directions are far fewer.
     pub(super) fn localised_by_principal_directions(
         &self,
@@ -91,8 +88,7 @@ impl Projection {
         tolerance: f64,
         vectors: &[Vec<f64>],
     ) -> Option<(Self, Vec<f64>)> {
-        let mut directions = Vec::new();
-        vectors.iter().for_each(|vector| append_real(&mut directions, vector.clone()));
+        let mut directions = orthonormal(vectors);
         let solved = |point: &Point<'_>| AssessedSolution::new(self, &point.at, point.correction).ok();
         let solved: Vec<AssessedSolution> = points.iter().map(solved).collect::<Option<_>>()?;
         let mut parts = Vec::new();
@@ -110,18 +106,23 @@ impl Projection {
         for (direction, _) in principal.take_while(|(_, value)| *value > left_out) {
             append_real(&mut directions, direction.to_vec());
         }
+        if self.saves_nothing(&directions) {
+            return None;
+        }
         let basis = directions.concat();
         let local = self.compressed(&basis);
         let is_good = |(point, own): (&Point<'_>, &AssessedSolution)| {
             let most = tolerance.max(MAX_LOCAL_ERROR_RATIO * relative(&own.assessment, point));
             local.assess(&point.at, point.correction).is_ok_and(|local| relative(&local, point) <= most)
         };
-        let is_smaller = directions.len() as f64 <= MAX_COMPRESSED_SHARE * self.size as f64;
-        (is_smaller && points.iter().zip(&solved).all(is_good)).then_some((local, basis))
+        points.iter().zip(&solved).all(is_good).then_some((local, basis))
     }
-}
 
-impl Projection {
+    /// Whether a model of some directions would save nothing.
+    fn saves_nothing(&self, directions: &[Vec<f64>]) -> bool {
+        directions.len() as f64 > MAX_COMPRESSED_SHARE * self.size as f64
+    }
+
     /// This model on the span of x, of every sensor's z_m and of their slopes by every parameter at the nominal values: response and slopes are exact there, and since residuals of
     /// x and of z_m are of second order, what they are off nearby is of fourth. `None` where the system is singular, where nothing responds, or where no vector would be saved.
     pub fn about(&self, at: &ModelAt<'_>) -> Option<Self> {
@@ -129,12 +130,19 @@ impl Projection {
         let mut directions = Vec::new();
         for y in &solutions {
             append(&mut directions, y);
-            if directions.len() as f64 > MAX_COMPRESSED_SHARE * self.size as f64 {
+            if self.saves_nothing(&directions) {
                 return None;
             }
         }
         (!directions.is_empty()).then(|| self.compressed(&directions.concat()))
     }
+}
+
+/// Some vectors, orthonormalised.
+fn orthonormal(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut directions = Vec::new();
+    vectors.iter().for_each(|vector| append_real(&mut directions, vector.clone()));
+    directions
 }
 
 /// The relative error at a point.

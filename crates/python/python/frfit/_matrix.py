@@ -48,16 +48,10 @@ def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
     """
     found = _frfit.read_matrix(path, name)
     rows, cols, values = found["rows"], found["cols"], found["values"]
-    if found["symmetry"] != "general":
-        below = rows != cols
-        mirror = values[below]
-        if found["symmetry"] == "skew-symmetric":
-            mirror = -mirror
-        elif found["symmetry"] == "hermitian":
-            mirror = mirror.conj()
-        rows, cols = np.concatenate([rows, cols[below]]), np.concatenate([cols, rows[below]])
-        values = np.concatenate([values, mirror])
-    return sp.csc_array((values, (rows, cols)), shape=found["shape"])
+    if found["symmetry"] == "general":
+        return sp.csc_array((values, (rows, cols)), shape=found["shape"])
+    mirrored = {"symmetric": np.asarray, "skew-symmetric": np.negative, "hermitian": np.conj}[found["symmetry"]]
+    return _whole(rows, cols, values, found["shape"], mirrored)
 
 
 @hints
@@ -120,11 +114,12 @@ def powers_of(matrices: Mapping[float, Any], powers: Sequence[int] | None = None
     return {power: _whole(rows, cols, values, size) for power, (rows, cols, values) in parts}
 
 
-def _whole(rows: Any, cols: Any, values: Any, shape: Any) -> Any:
-    """A symmetric matrix of one of its triangles."""
+def _whole(rows: Any, cols: Any, values: Any, shape: Any, mirrored: Any = np.asarray) -> Any:
+    """A matrix of one of its triangles; ``mirrored`` makes the values of the other one."""
     below = rows != cols
     rows, cols = np.concatenate([rows, cols[below]]), np.concatenate([cols, rows[below]])
-    return sp.csc_array((np.concatenate([values, values[below]]), (rows, cols)), shape=shape)
+    values = np.concatenate([values, mirrored(values[below])])
+    return sp.csc_array((values, (rows, cols)), shape=shape)
 
 
 def compressed(matrix: Any, name: str) -> tuple[Any, Any, Any, Any]:

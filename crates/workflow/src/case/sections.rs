@@ -89,10 +89,10 @@ fn at_values(field: &Field<'_>) -> Result<AtValues, InputError> {
     })
 }
 
-/// Refuses values of a dimension of which no matrix can be told by its powers: 0, 1, 2 and so on without `powers`.
+/// Checks the values of a dimension at which a matrix is given, from which its parts for some powers are computed: 0, 1, 2 and so on without `powers`.
 ///
 /// # Errors
-/// Too few values or too many, one that stands twice, or one that has not these powers.
+/// Too few values or too many, the same value twice, or one that is not allowed: 0, or with `powers` a negative one.
 pub(crate) fn check_values(numbers: &[f64], place: &Place, powers: Option<&[i32]>) -> Result<(), InputError> {
     match powers {
         Some(powers) if numbers.len() != powers.len() + 1 => {

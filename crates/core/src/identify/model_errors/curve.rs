@@ -337,8 +337,8 @@ impl Curves {
 
     /// Gives a smooth unknown the same phase all over the band.
     pub(super) fn set_phase(&self, theta: &mut [f64], unknown: usize, phase: f64) {
-        if let (Curve::Spline(spline), range) = &self.each[unknown] {
-            theta[range.clone()].iter_mut().skip(spline.knots()).for_each(|own| *own = phase);
+        if let Some(phases) = self.phases(unknown) {
+            theta[phases].fill(phase);
         }
     }
 
@@ -358,11 +358,6 @@ impl Curves {
             (Curve::Spline(spline), range) => spline.log(&theta[range.clone()], line).im,
             _ => 0.0,
         }
-    }
-
-    /// How many unknowns.
-    pub(super) fn unknowns(&self) -> usize {
-        self.each.len()
     }
 
     /// Everything at a line; `None` where a number is not finite.

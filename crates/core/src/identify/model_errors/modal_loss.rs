@@ -8,8 +8,8 @@
 //! # Limits
 //! What all modes have in common is no part of it (`common_loss`). A right model has no such errors: a support that damps and does not give is not seen.
 
-use super::Sizes;
 use super::search::Fitting;
+use super::{Sizes, UNDAMPED_SHARE_RATIO};
 
 /// η_s: rubber has more, a clamp of steel less.
 const LOSS_FACTOR_OF_MISSING_STIFFNESS: f64 = 0.3;
@@ -26,23 +26,23 @@ pub(super) fn add_modal_loss(
     sizes: Sizes,
 ) {
     let [(unknown, _)] = fitting.damped else { return };
-    let Some(knots) = fitting.curves.phases(*unknown).filter(|_| fitting.curves.unknowns() == 1) else {
-        return;
-    };
-    let share = 2.0 * sizes.frequency.hypot(sizes.common);
+    let is_alone = !fitting.curves.is_beside_others();
+    let Some(knots) = fitting.curves.phases(*unknown).filter(|_| is_alone) else { return };
+    let share = UNDAMPED_SHARE_RATIO * sizes.frequency.hypot(sizes.common);
     let most = LOSS_FACTOR_OF_MISSING_STIFFNESS * share;
     // The level is that of the knots that are known best, and as uncertain as the mean of numbers that scatter as they do. What the data leave open is no distance from it.
     let variances: Vec<f64> = knots.clone().map(|k| covariance[k * n + k]).collect();
     let phases = &theta[knots.clone()];
     let weights = || variances.iter().map(|variance| 1.0 / variance);
-    let level = weights().zip(phases).map(|(w, phase)| w * phase).sum::<f64>() / weights().sum::<f64>();
+    let total: f64 = weights().sum();
+    let level = weights().zip(phases).map(|(w, phase)| w * phase).sum::<f64>() / total;
     let beyond = |(phase, variance): (&f64, &f64)| {
         let square = (level - phase).powi(2) - SIGNIFICANT_STD.powi(2) * variance;
         square.max(0.0).sqrt().min(most).copysign(level - phase)
     };
     let to_level: Vec<f64> = phases.iter().zip(&variances).map(beyond).collect();
     let squares = weights().zip(&to_level).map(|(w, step)| w * step * step).sum::<f64>();
-    let of_level = (squares / weights().sum::<f64>() / phases.len() as f64).sqrt();
+    let of_level = (squares / total / phases.len() as f64).sqrt();
     for of_knots in [to_level, vec![of_level; knots.len()]] {
         let mut step = vec![0.0; n];
         step[knots.clone()].copy_from_slice(&of_knots);
