@@ -2,7 +2,7 @@
 
 use super::RationalResponse;
 use crate::c64;
-use frfit_linalg::dense::{Eigen, Lu, Matrix, NoConvergence, eigen};
+use frfit_linalg::dense::{Eigen, Ldlt, Lu, Matrix, NoConvergence, eigen};
 use frfit_linalg::vector::transpose_dot;
 
 /// Poles and residues: the response and its slope at all sensors for n multiplications each.
@@ -29,7 +29,7 @@ impl RationalResponse {
         if n == 0 {
             return Ok(None);
         }
-        let factor = Lu::new(nominal)?;
+        let factor = Ldlt::new(nominal)?;
         let mut block: Vec<c64> = (0..n).flat_map(|j| change.column(j)).chain(&self.load).copied().collect();
         factor.solve(&mut block)?;
         let g = Matrix::from_fn(n, n, |i, j| block[i + j * n]);

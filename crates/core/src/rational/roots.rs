@@ -2,7 +2,7 @@
 
 use super::RationalResponse;
 use crate::c64;
-use frfit_linalg::dense::{Lu, Matrix, NoConvergence, eigenvalues};
+use frfit_linalg::dense::{Ldlt, Matrix, NoConvergence, eigenvalues};
 use frfit_linalg::vector::transpose_dot;
 
 /// A correction at which the reduced response equals the measured one.
@@ -66,7 +66,7 @@ impl RationalResponse {
         }
         let columns = self.matrices[1..].iter().flat_map(|a| (0..n).flat_map(|j| a.column(j)));
         let mut block: Vec<c64> = columns.chain(&self.load).copied().collect();
-        Lu::new(&self.matrices[0])?.solve(&mut block)?;
+        Ldlt::new(&self.matrices[0])?.solve(&mut block)?;
         let (g, x0) = block.split_at(n * n * degree);
         let l = &self.sensors[sensor];
         // Where the nominal response is the measured one, z = 0 is a solution and the formula divides by zero: a millionth beside it is near
@@ -116,7 +116,7 @@ impl RationalResponse {
     pub fn respond_with_slope(&self, correction: c64) -> Result<(Vec<c64>, Vec<c64>), NoConvergence> {
         let (n, z) = (self.size(), correction / self.scale);
         let mut block: Vec<c64> = self.load.iter().chain(self.sensors.iter().flatten()).copied().collect();
-        Lu::new(&self.matrix(z))?.solve(&mut block)?;
+        Ldlt::new(&self.matrix(z))?.solve(&mut block)?;
         let (y, adjoints) = block.split_at(n);
         let derivative = Matrix::from_fn(n, n, |i, j| {
             let terms = self.matrices.iter().enumerate().skip(1).rev();
@@ -135,7 +135,7 @@ impl RationalResponse {
     pub fn second_derivative(&self, correction: c64) -> Result<Vec<c64>, NoConvergence> {
         let (n, z) = (self.size(), correction / self.scale);
         let mut block: Vec<c64> = self.load.iter().chain(self.sensors.iter().flatten()).copied().collect();
-        let factor = Lu::new(&self.matrix(z))?;
+        let factor = Ldlt::new(&self.matrix(z))?;
         factor.solve(&mut block)?;
         let (y, adjoints) = block.split_at(n);
         let derivative = |weight: fn(usize) -> f64, skipped: usize| {

@@ -5,7 +5,7 @@ use super::projection::weighed;
 use super::reduced::SINGULAR;
 use crate::c64;
 use crate::model::{ModelAt, ParameterAt};
-use frfit_linalg::dense::{Lu, NoConvergence};
+use frfit_linalg::dense::{Ldlt, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::{norm, transpose_dot};
 
@@ -53,7 +53,7 @@ pub(super) struct Solutions {
     /// θ_g of D and of ∂D/∂c.
     pub(super) theta: Vec<c64>,
     pub(super) slope_theta: Vec<c64>,
-    factor: Lu,
+    factor: Ldlt,
     /// y, z_1, z_2 …
     pub(super) all: Vec<Vec<c64>>,
 }
@@ -119,8 +119,8 @@ impl Projection {
     }
 
     /// Σ θ_g VᵀS_gV, factorised.
-    pub(super) fn factor(&self, theta: &[c64]) -> Result<Lu, Breakdown> {
-        Lu::of_combination(self.size, &weighed(theta, &self.matrices))
+    pub(super) fn factor(&self, theta: &[c64]) -> Result<Ldlt, Breakdown> {
+        Ldlt::of_combination(self.size, &weighed(theta, &self.matrices))
             .map_err(|NoConvergence| Breakdown::NotFinite)
     }
 

@@ -16,7 +16,7 @@ use crate::c64;
 use crate::frequency::{damping_ratio, natural_frequency_hz, omega_rad_s};
 use crate::material::OutsideTable;
 use crate::model::{Combination, DynamicStiffness, ModelAt, Role, WeightedTerm};
-use frfit_linalg::dense::{Eigen, Lu, Matrix, combination, eigen};
+use frfit_linalg::dense::{Eigen, Ldlt, Matrix, combination, eigen};
 use frfit_linalg::modes::{ModesError, lowest};
 use frfit_linalg::sparse::{SymmetricMatrix, Values};
 use frfit_linalg::vector::{dot, norm, orthogonalise, transpose_dot};
@@ -415,14 +415,14 @@ impl Projection {
         let dynamic = Matrix::from_fn(r, r, |i, j| {
             stiffness[(i, j)] + about * once * viscous[(i, j)] + about * about * twice * mass[(i, j)]
         });
-        let Ok(lu) = Lu::new(&dynamic) else { return Vec::new() };
+        let Ok(factor) = Ldlt::new(&dynamic) else { return Vec::new() };
         // T(s₀)⁻¹ of (C + s₀ M) and of M: y = −μ T⁻¹[(C + s₀M) y + M v] and v = s₀ y + μ y eliminate to the matrix below.
         let damped = |i: usize, j: usize| once * viscous[(i, j)] + about * twice * mass[(i, j)];
         let entries = |of: &dyn Fn(usize, usize) -> c64| -> Vec<c64> {
             (0..r * r).map(|at| of(at % r, at / r)).collect()
         };
         let (mut first, mut second) = (entries(&damped), entries(&|i, j| twice * mass[(i, j)]));
-        if lu.solve(&mut first).and(lu.solve(&mut second)).is_err() {
+        if factor.solve(&mut first).and(factor.solve(&mut second)).is_err() {
             return Vec::new();
         }
         let (first, second) = (|i: usize, j: usize| first[i + j * r], |i: usize, j: usize| second[i + j * r]);

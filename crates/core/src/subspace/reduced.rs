@@ -4,7 +4,7 @@ use super::Projection;
 use crate::c64;
 use crate::model::{Combination, ModelAt};
 use crate::response::{Response, Work};
-use frfit_linalg::dense::{Lu, Matrix, NoConvergence};
+use frfit_linalg::dense::{Ldlt, Matrix, NoConvergence};
 use frfit_linalg::solve::Breakdown;
 
 /// VᵀD(ω, c)V with its load and sensors.
@@ -17,7 +17,7 @@ pub struct ReducedModel<'a> {
     values: Vec<c64>,
     load: &'a [c64],
     sensors: &'a [Vec<f64>],
-    factor: Lu,
+    factor: Ldlt,
 }
 
 pub(super) const SINGULAR: Breakdown = Breakdown::Singular { condition_at_least: f64::INFINITY };
@@ -36,7 +36,7 @@ impl<'a> ReducedModel<'a> {
     fn new(small: &'a Projection, at: &ModelAt<'_>) -> Result<Self, Breakdown> {
         let reduced = |of: &Combination| small.combine(&small.parts.weights(of, at.frequency_hz));
         let nominal = reduced(&at.nominal);
-        let factor = Lu::new(&nominal).map_err(|NoConvergence| Breakdown::NotFinite)?;
+        let factor = Ldlt::new(&nominal).map_err(|NoConvergence| Breakdown::NotFinite)?;
         Ok(Self {
             frequency_hz: at.frequency_hz,
             nominal,
@@ -113,7 +113,7 @@ impl Response for ReducedModel<'_> {
 
     fn solve_at(&self, corrections: &[c64]) -> Result<Vec<c64>, Breakdown> {
         let mut x = self.load.to_vec();
-        let factor = Lu::new(&self.matrix(corrections)).map_err(|NoConvergence| Breakdown::NotFinite)?;
+        let factor = Ldlt::new(&self.matrix(corrections)).map_err(|NoConvergence| Breakdown::NotFinite)?;
         factor.solve(&mut x).map_err(|NoConvergence| SINGULAR)?;
         Ok(self.observe(&x))
     }

@@ -2,6 +2,7 @@
 
 mod cholesky;
 mod eigen;
+mod ldlt;
 mod least_squares;
 mod lu;
 mod matrix;
@@ -9,10 +10,10 @@ mod orthonormal;
 mod polynomial;
 mod real;
 mod singular;
-mod split_complex_lu;
 
 pub use cholesky::Cholesky;
 pub use eigen::{Eigen, eigen, eigenvalues, symmetric_eigen};
+pub use ldlt::Ldlt;
 pub use least_squares::{LeastSquares, least_squares};
 pub use lu::{Lu, solve};
 pub use matrix::Matrix;
