@@ -60,7 +60,7 @@ use frfit_linalg::dense::Cholesky;
 use local_stiffness::add_local_compliance;
 use mesh::BetweenMeshes;
 use modal_loss::add_modal_loss;
-use search::{Damping, FactorPrior, Fitting, Kinds, Minimum, Place, Sizes};
+use search::{Damping, FactorPrior, Fitting, Kinds, Linearised, Minimum, Place, Sizes};
 use small_errors::{About, SmallErrors};
 
 /// What is known of the noise.
@@ -432,7 +432,8 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
             let (place, fitting) = (wrong.found.place.clone(), Fitting { kinds, ..fine });
             // A minimum that explains the band is near. From any other one added noise leads away.
             let more = if is_explained(&wrong) {
-                data.settled(&fitting, place, wrong.sizes.with_kinds(kinds, fine.known), wrong.level)
+                let sizes = wrong.sizes.with_kinds(kinds, fine.known);
+                fitting.linearised(place).and_then(|at| data.settled(&fitting, at, sizes, wrong.level))
             } else {
                 data.explain(&fitting, place, &ADDED_NOISE[LAST_LEVELS..])
             };
@@ -739,7 +740,7 @@ impl<'t, 'a> Search<'t, 'a> {
             let searched: Fit<'_> = &|fitting, place| {
                 let held = Fitting { held: true, centre: &centre, ..*fitting };
                 let errors = data.explain(&held, place, &ADDED_NOISE[FIRST_LEVELS..])?;
-                data.settled(fitting, errors.found.place, errors.sizes, errors.level)
+                data.settled(fitting, fitting.linearised(errors.found.place)?, errors.sizes, errors.level)
             };
             // Far along it the errors are those of another model, which has to explain the band clearly better.
             let are_small = |one: &Explained| whole.are_small(&one.found.place, data.given_sizes);
@@ -911,13 +912,14 @@ impl<'a> Measured<'_, 'a> {
     fn approach(&self, coarse: &Fitting<'_, '_>, place: Place) -> Option<(f64, Place)> {
         let precision = coarse.precision(&Sizes::prior(coarse.known));
         let own = if self.known() { 1.0 } else { 0.0 };
-        let mut end = (f64::INFINITY, place);
+        let (mut at, mut end) = (coarse.linearised(place)?, None);
         for added in &ADDED_NOISE[..FIRST_LEVELS] {
             let sigma = self.sigma_at(coarse.lines, own, *added);
-            let found = coarse.descend(end.1, &sigma, &precision, STEPS_PER_LEVEL)?;
-            end = (found.normal.chi_squared + found.prior, found.place);
+            let (found, near) = coarse.descend(at, &sigma, &precision, STEPS_PER_LEVEL)?;
+            at = near;
+            end = Some((found.normal.chi_squared + found.prior, found.place));
         }
-        Some(end)
+        end
     }
 
     /// Whether the residual is noise: of the given size, or of the usual size.
@@ -945,10 +947,12 @@ impl<'a> Measured<'_, 'a> {
         for below in whole.stages(MAX_STAGES) {
             let lines: Vec<usize> = thinned(below, FIRST_LINES).copied().collect();
             let stage = Fitting { lines: &lines, ..*whole };
+            let mut at = stage.linearised(place)?;
             for added in ADDED_STAGE_NOISE {
                 let sigma = self.sigma_at(&lines, own, added);
-                place = stage.descend(place, &sigma, &precision, STAGE_STEPS)?.place;
+                at = stage.descend(at, &sigma, &precision, STAGE_STEPS)?.1;
             }
+            place = at.place;
         }
         Some(place)
     }
@@ -985,15 +989,15 @@ impl<'a> Measured<'_, 'a> {
     }
 
     /// The least squares with the noise approached from above, and the sizes of largest evidence.
-    fn explain(&self, fitting: &Fitting<'_, '_>, mut place: Place, from_above: &[f64]) -> Option<Explained> {
+    fn explain(&self, fitting: &Fitting<'_, '_>, place: Place, from_above: &[f64]) -> Option<Explained> {
         let known = self.known();
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let numbers = self.numbers(fitting.lines) as f64;
-        let mut level = 1.0;
+        let (mut at, mut level) = (fitting.linearised(place)?, 1.0);
         for &added in from_above {
             let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
-            let found = fitting.descend(place, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
-            place = found.place;
+            let (found, near) = fitting.descend(at, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
+            at = near;
             if !known {
                 level = added;
                 // The noise itself is larger than what would come next.
@@ -1002,23 +1006,24 @@ impl<'a> Measured<'_, 'a> {
                 }
             }
         }
-        self.settled(fitting, place, sizes, level)
+        self.settled(fitting, at, sizes, level)
     }
 
     /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
     fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let sigma = fitting.lines.iter().map(|&line| &self.sigma[line]);
-        let left = chi_squared(&fitting.squares(&place)?, sigma) / self.numbers(fitting.lines) as f64;
+        let at = fitting.linearised(place)?;
+        let left = chi_squared(&at.squares(), sigma) / self.numbers(fitting.lines) as f64;
         let level = if self.known() { 1.0 } else { left.sqrt().max(MIN_NOISE_OVER_RESPONSE) };
-        self.settled(fitting, place, sizes, level)
+        self.settled(fitting, at, sizes, level)
     }
 
     /// The least squares near a place, with the noise and the sizes of largest evidence: those to begin with are nearly right.
     fn settled(
         &self,
         fitting: &Fitting<'_, '_>,
-        mut place: Place,
+        mut at: Linearised,
         mut sizes: Sizes,
         mut level: f64,
     ) -> Option<Explained> {
@@ -1029,9 +1034,9 @@ impl<'a> Measured<'_, 'a> {
         for _ in 0..MAX_SIZE_ROUNDS {
             let sigma = self.sigma_beside(fitting.lines, level, rest);
             let precision = fitting.precision(&sizes);
-            let found = fitting.descend(place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
-            place = found.place.clone();
-            let n = fitting.count();
+            let found;
+            (found, at) = fitting.descend(at, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
+            let (n, place) = (fitting.count(), &at.place);
             let whole = found.normal.with_prior(&precision);
             let factor = Cholesky::new(n, &whole).ok()?;
             let inverse = factor.inverse();
@@ -1045,7 +1050,7 @@ impl<'a> Measured<'_, 'a> {
             let chi_squared = found.normal.chi_squared;
             let before = (level, sizes, rest);
             if known && !fitting.shapes().is_empty() {
-                rest = self.rest(fitting, &place, (numbers - determined).max(1.0))?;
+                rest = self.rest(fitting.lines, &at.squares(), (numbers - determined).max(1.0));
             }
             let same = last
                 .as_ref()
@@ -1122,24 +1127,24 @@ impl<'a> Measured<'_, 'a> {
     }
 
     /// What the response has beside a given noise, relative to itself, so that χ² is what n numbers have: none where noise leaves as much.
-    fn rest(&self, fitting: &Fitting<'_, '_>, place: &[f64], n: f64) -> Option<f64> {
-        let squares = fitting.squares(place)?;
-        let chi_squared = |rest: f64| chi_squared(&squares, &self.sigma_beside(fitting.lines, 1.0, rest));
+    fn rest(&self, lines: &[usize], squares: &[Vec<f64>], n: f64) -> f64 {
+        let chi_squared = |rest: f64| chi_squared(squares, &self.sigma_beside(lines, 1.0, rest));
         if is_chance(chi_squared(0.0), n) {
-            return Some(0.0);
+            return 0.0;
         }
         let (mut low, mut high) = (0.0, MAX_REST);
         for _ in 0..REST_HALVINGS {
             let middle = 0.5 * (low + high);
             *(if chi_squared(middle) > n { &mut low } else { &mut high }) = middle;
         }
-        Some(high)
+        high
     }
 
     fn posterior(&self, fitting: &Fitting<'_, '_>, wrong: Explained, evidence: f64) -> Option<Estimated> {
         let precision = fitting.precision(&wrong.sizes.with_dependent_shapes(fitting.sensors()));
         let sigma = self.sigma_beside(fitting.lines, wrong.level, wrong.rest);
-        let found = fitting.descend(wrong.found.place, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
+        let at = fitting.linearised(wrong.found.place)?;
+        let (found, _) = fitting.descend(at, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
         let whole = found.normal.with_prior(&precision);
         let inverse = Cholesky::new(fitting.count(), &whole).ok()?.inverse();
         let sizes = wrong.sizes;

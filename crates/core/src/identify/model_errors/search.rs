@@ -154,6 +154,61 @@ impl Normal {
     }
 }
 
+/// The responses near a place, before they are weighed: what noise and priors are assumed does not change them.
+pub(super) struct Linearised {
+    pub(super) place: Place,
+    /// Coordinates in all, and those on which the response at each sensor depends.
+    count: usize,
+    coordinates: Vec<Vec<usize>>,
+    /// Of each line and sensor: slopes along these, then what is left of the measurement.
+    rows: Vec<Vec<Vec<c64>>>,
+}
+
+impl Linearised {
+    /// |u_m − x_m|² at each of the lines.
+    pub(super) fn squares(&self) -> Vec<Vec<f64>> {
+        let square = |row: &Vec<c64>| row.last().map_or(0.0, |rest| rest.norm_sqr());
+        self.rows.iter().map(|of_line| of_line.iter().map(square).collect()).collect()
+    }
+
+    /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
+    pub(super) fn normal(&self, sigma: &[Vec<f64>], for_each: ForEach<'_>) -> Option<Normal> {
+        let n = self.count;
+        let sensors = self.coordinates.len();
+        let chunks = self.rows.len().min(LINE_CHUNKS);
+        // Of each sensor all products of the columns of [J r].
+        let part = |c: usize| -> Vec<Vec<f64>> {
+            let of_sensor = |m: usize| {
+                let mut stacked = Vec::new();
+                for (row, sigma) in
+                    (c..self.rows.len()).step_by(chunks).map(|k| (&self.rows[k][m], sigma[k][m]))
+                {
+                    if sigma.is_finite() {
+                        stacked.extend(row.iter().map(|x| x.re / sigma));
+                        stacked.extend(row.iter().map(|x| x.im / sigma));
+                    }
+                }
+                times_transpose(&stacked, self.coordinates[m].len() + 1)
+            };
+            (0..sensors).map(of_sensor).collect()
+        };
+        let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
+        for products in map(for_each, chunks, part) {
+            for (of_sensor, coordinates) in products.iter().zip(&self.coordinates) {
+                let mut columns = of_sensor.chunks_exact(coordinates.len() + 1);
+                for (&a, column) in coordinates.iter().zip(&mut columns) {
+                    let information = &mut sum.information[a * n..][..n];
+                    coordinates.iter().zip(column).for_each(|(&b, product)| information[b] += product);
+                }
+                let rest = columns.next().unwrap_or_default();
+                coordinates.iter().zip(rest).for_each(|(&a, product)| sum.gradient[a] += product);
+                sum.chi_squared += rest.last().unwrap_or(&0.0);
+            }
+        }
+        Some(sum).filter(|sum| sum.chi_squared.is_finite())
+    }
+}
+
 /// Slopes of the unknowns at a line, with the number of the unknown.
 struct Slopes {
     /// ∂p/∂θ.
@@ -609,60 +664,32 @@ impl Fitting<'_, '_> {
         row
     }
 
-    /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
-    pub(super) fn normal(&self, place: &[f64], sigma: &[Vec<f64>]) -> Option<Normal> {
-        let n = self.count();
-        let errors = self.errors(place);
+    /// The responses near a place; `None` where they are not finite.
+    pub(super) fn linearised(&self, place: Place) -> Option<Linearised> {
+        let errors = self.errors(&place);
         let model = self.model.with_errors(self.modes, &errors);
         let common: Vec<Vec<f64>> = (0..self.stiffness_errors()).map(|i| self.common(i)).collect();
-        // The coordinates on which the response at each sensor hangs.
         let moving: Vec<usize> = (0..self.shared()).filter(|&i| self.moves(i)).collect();
         let coordinates = |m: usize| -> Vec<usize> {
             let shapes = self.first_shape(m)..self.first_shape(m) + self.modes();
             moving.iter().copied().chain(shapes).collect()
         };
-        let coordinates: Vec<Vec<usize>> = (0..self.sensors()).map(coordinates).collect();
+        let coordinates = (0..self.sensors()).map(coordinates).collect();
         // In a row shapes at a sensor follow what is shared.
         let places: Vec<usize> =
             moving.iter().copied().chain(self.shared()..self.shared() + self.modes()).collect();
-        let rows = |k: usize| -> Option<Vec<Option<[Vec<f64>; 2]>>> {
+        let rows = |k: usize| -> Option<Vec<Vec<c64>>> {
             let i = self.lines[k];
-            let (slopes, of_unknowns) = self.shown(&model, &errors, place, i)?;
+            let (slopes, of_unknowns) = self.shown(&model, &errors, &place, i)?;
             let at_sensor = |m: usize| {
-                let sigma = Some(sigma[k][m]).filter(|sigma| sigma.is_finite())?;
                 let row = self.row(&slopes, (&of_unknowns, self.omegas[i]), &common, m);
                 let rest = self.measured[i][m] - slopes.response[m];
-                let each = || places.iter().map(|&place| row[place]).chain([rest]).map(move |x| x / sigma);
-                Some([each().map(|x| x.re).collect(), each().map(|x| x.im).collect()])
+                places.iter().map(|&place| row[place]).chain([rest]).collect()
             };
             Some((0..self.sensors()).map(at_sensor).collect())
         };
-        let chunks = self.lines.len().min(LINE_CHUNKS);
-        // Of each sensor all products of the columns of [J r].
-        let part = |c: usize| -> Option<Vec<Vec<f64>>> {
-            let mut stacked = vec![Vec::new(); self.sensors()];
-            for k in (c..self.lines.len()).step_by(chunks) {
-                for (all, of_line) in stacked.iter_mut().zip(rows(k)?) {
-                    of_line.into_iter().flatten().for_each(|row| all.extend(row));
-                }
-            }
-            let width = places.len() + 1;
-            Some(stacked.iter().map(|all| times_transpose(all, width)).collect())
-        };
-        let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
-        for products in map(self.for_each, chunks, part) {
-            for (of_sensor, coordinates) in products?.iter().zip(&coordinates) {
-                let mut columns = of_sensor.chunks_exact(coordinates.len() + 1);
-                for (&a, column) in coordinates.iter().zip(&mut columns) {
-                    let information = &mut sum.information[a * n..][..n];
-                    coordinates.iter().zip(column).for_each(|(&b, product)| information[b] += product);
-                }
-                let rest = columns.next().unwrap_or_default();
-                coordinates.iter().zip(rest).for_each(|(&a, product)| sum.gradient[a] += product);
-                sum.chi_squared += rest.last().unwrap_or(&0.0);
-            }
-        }
-        Some(sum).filter(|sum| sum.chi_squared.is_finite())
+        let rows = map(self.for_each, self.lines.len(), rows).into_iter().collect::<Option<_>>()?;
+        Some(Linearised { place, count: self.count(), coordinates, rows })
     }
 
     /// What the sensors show at a line, with its slopes, and those of the unknowns.
@@ -678,27 +705,6 @@ impl Fitting<'_, '_> {
         let slopes =
             model.respond_with_error_slopes((self.modes, errors), &point.at, point.correction).ok()?;
         Some((slopes.shown(&self.curves.shares(place, self.omegas[line])), of_unknowns))
-    }
-
-    /// |u_m − x_m|² at each of the lines; `None` where the response is not finite.
-    pub(super) fn squares(&self, place: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let squares = |(&i, x): (&usize, Vec<c64>)| {
-            self.measured[i].iter().zip(x).map(|(u, x)| (u - x).norm_sqr()).collect()
-        };
-        Some(self.lines.iter().zip(self.responses(place)?).map(squares).collect())
-    }
-
-    /// x_m at each of the lines; `None` where it is not finite.
-    pub(super) fn responses(&self, place: &[f64]) -> Option<Vec<Vec<c64>>> {
-        let model = self.model.with_errors(self.modes, &self.errors(place));
-        let at_line = |k: usize| -> Option<Vec<c64>> {
-            let i = self.lines[k];
-            let (values, _) = self.unknowns_at(place, i)?;
-            let point = (self.point)(i, &values)?;
-            let response = model.respond_at(&point.at, point.correction).ok()?;
-            Some(self.curves.shown(place, self.omegas[i], &response))
-        };
-        map(self.for_each, self.lines.len(), at_line).into_iter().collect()
     }
 
     /// The prior's precision, n × n: curve and errors.
@@ -777,14 +783,14 @@ impl Fitting<'_, '_> {
         Some(place)
     }
 
-    /// Levenberg and Marquardt's method from a place.
+    /// Levenberg and Marquardt's method from a place: where it ends, and the responses near there.
     pub(super) fn descend(
         &self,
-        start: Place,
+        mut at: Linearised,
         sigma: &[Vec<f64>],
         precision: &[f64],
         steps: usize,
-    ) -> Option<Minimum> {
+    ) -> Option<(Minimum, Linearised)> {
         let n = self.count();
         let prior = |place: &[f64]| -> (f64, Vec<f64>) {
             let off: Vec<f64> = (0..n).map(|i| place[i] - self.expected(i)).collect();
@@ -792,29 +798,32 @@ impl Fitting<'_, '_> {
                 precision.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
             (times.iter().zip(&off).map(|(p, o)| p * o).sum(), times)
         };
-        let mut place = start;
-        let mut normal = self.normal(&place, sigma)?;
-        let (mut of_prior, mut pull) = prior(&place);
+        let mut normal = at.normal(sigma, self.for_each)?;
+        let (mut of_prior, mut pull) = prior(&at.place);
         let (mut damping, mut refused) = (1e-4, 0);
         for _ in 0..steps {
             let mut matrix = normal.with_prior(precision);
             (0..n).for_each(|i| matrix[i * n + i] *= 1.0 + damping);
             let mut slope: Vec<f64> = normal.gradient.iter().zip(&pull).map(|(g, p)| g - p).collect();
-            let Some(step) = self.step(&place, &mut matrix, &mut slope) else {
+            let Some(step) = self.step(&at.place, &mut matrix, &mut slope) else {
                 damping *= 10.0;
                 continue;
             };
             let longest = step[..self.curves.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
             let part = (MAX_THETA_STEP / longest).min(1.0);
-            let mut there: Place = place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
+            let mut there: Place = at.place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
             // Roundoff.
             self.curves.keep_within_bounds(&mut there);
             let (other_prior, other_pull) = prior(&there);
             let cost = normal.chi_squared + of_prior;
-            match self.normal(&there, sigma).filter(|other| other.chi_squared + other_prior <= cost) {
-                Some(other) => {
+            let other = self.linearised(there).and_then(|there| {
+                let normal = there.normal(sigma, self.for_each)?;
+                (normal.chi_squared + other_prior <= cost).then_some((there, normal))
+            });
+            match other {
+                Some((there, other)) => {
                     let gain = cost - other.chi_squared - other_prior;
-                    (place, normal, of_prior, pull) = (there, other, other_prior, other_pull);
+                    (at, normal, of_prior, pull) = (there, other, other_prior, other_pull);
                     damping = (damping * 0.1).max(1e-9);
                     refused = 0;
                     if gain <= (COST_RTOL * cost).max(COST_ATOL) && part == 1.0 {
@@ -830,7 +839,7 @@ impl Fitting<'_, '_> {
                 }
             }
         }
-        Some(Minimum { place, normal, prior: of_prior })
+        Some((Minimum { place: at.place.clone(), normal, prior: of_prior }, at))
     }
 }
 
