@@ -246,7 +246,7 @@ factor = 910.0                 # kg/m³, for a matrix made with density one
 name = \"plate\"
 role = \"stiffness\"
 factor_is = \"relative\"
-at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
+at = { dimension = \"thickness\", values = [0.0018, 0.0019, 0.002, 0.0021, 0.0022], files = [\"k18.mtx\", \"k19.mtx\", \"k20.mtx\", \"k21.mtx\", \"k22.mtx\"] }
 "],
 };
 
@@ -275,7 +275,7 @@ pub(super) static MATRIX_AT: Section = Section {
     examples: &["[[matrix]]
 name = \"plate\"
 role = \"stiffness\"
-at = { dimension = \"thickness\", values = [0.0018, 0.002, 0.0022], files = [\"k18.mtx\", \"k20.mtx\", \"k22.mtx\"] }
+at = { dimension = \"thickness\", values = [0.0018, 0.0019, 0.002, 0.0021, 0.0022], files = [\"k18.mtx\", \"k19.mtx\", \"k20.mtx\", \"k21.mtx\", \"k22.mtx\"] }
 ", "[[matrix]]
 name = \"block\"
 role = \"stiffness\"
@@ -511,7 +511,7 @@ dof = \"34+Z\"
 record = 2
 quantity = \"accelerance\"
 averages = 5
-scale = 9.81
+scale = 9.80665
 delay_s = 1e-5
 decay_per_s = 6.0
 ",
@@ -751,7 +751,7 @@ pub(super) static SINGLE: Section = Section {
     ],
     examples: &[
         "[identify]
-matrix = \"plate\"
+matrix = \"mass\"
 method = \"series\"
 order = 30
 selection = \"smallest\"
