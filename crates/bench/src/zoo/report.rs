@@ -155,7 +155,7 @@ that are not `ok`; in brackets those with the right value all the same. Wrong: `
 
 /// One row for each kind of data, and one for each kind of model.
 pub fn markdown(tried: &[Tried]) -> String {
-    let heading = "| | cases | lines | identifiable | ok % | refused % (right) | wrong % | s, median | s, most | factorisations, most |";
+    let heading = "| | cases | lines | identifiable | ok % | refused % (right) | wrong % | time, median (s) | time, largest (s) | factorisations, largest |";
     let mut rows = vec![heading.to_owned(), "|---|---|---|---|---|---|---|---|---|---|".to_owned()];
     let mut row = |name: &str, of: &dyn Fn(&Tried) -> bool| {
         let group: Vec<&Tried> = tried.iter().filter(|one| of(one)).collect();
