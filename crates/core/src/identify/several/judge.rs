@@ -181,11 +181,13 @@ impl Task<'_, '_> {
             };
             let unknowns = &self.problem.unknowns[one.unknowns];
             let middle = self.problem.frfs.frequency_hz[self.omegas.len() / 2];
-            // Constants stop at their bounds, and each of their coordinates is a number; of a law the modulus is compared with them. A loss factor that is not known has no
+            // Constants stop at their bounds, and each of their coordinates is a number; of a law the modulus is compared with them. A number that is not identifiable has no
             // value that could break a bound.
             let stops = |(c, number): (usize, &Number)| {
                 let is_beside = errors.is_some() && is_beside_bound(number, &unknowns.bounds);
-                (binding.contains(&c) || is_beside) && !number.is_unknown_loss_factor()
+                (binding.contains(&c) || is_beside)
+                    && number.is_identifiable()
+                    && !number.is_unknown_loss_factor()
             };
             let at_bound = one.range.clone().zip(&numbers).any(stops)
                 || law.at(middle).is_ok_and(|value| unknowns.bounds.broken_by(value).is_some());
@@ -198,13 +200,19 @@ impl Task<'_, '_> {
             BandValue { unknowns: one.unknowns, numbers, law, at_bound, status: status.within(fit) }
         });
         let band: Vec<BandValue> = band.collect();
-        // With a value that stops at its bounds no line has what it needs within them.
-        if band.iter().any(|one| one.at_bound) {
-            lines
-                .iter_mut()
-                .filter(|line| line.status == Status::Ok)
-                .for_each(|line| line.status = Status::NoRoot);
-        }
+        let is_unknown = |one: &BandValue| one.status == Status::NotIdentifiable;
+        // With a value that stops at its bounds no line has what it needs within them. Where all unknowns hold for the band and none is identifiable, no line has one.
+        let instead_of_ok = if band.iter().any(|one| one.at_bound) {
+            Status::NoRoot
+        } else if band.len() == self.problem.unknowns.len() && band.iter().all(is_unknown) {
+            Status::NotIdentifiable
+        } else {
+            Status::Ok
+        };
+        lines
+            .iter_mut()
+            .filter(|line| line.status == Status::Ok)
+            .for_each(|line| line.status = instead_of_ok);
         let unexplained = lines.iter().filter(|line| line.status == Status::Unexplained).count();
         let is_other_model = unexplained as f64 > MAX_UNEXPLAINED_SHARE * lines.len() as f64
             || (0..self.problem.unknowns.len()).any(|j| gives_energy(&lines, j));
