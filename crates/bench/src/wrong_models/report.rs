@@ -264,13 +264,19 @@ pub fn errors(case: &Tried, run: &Run) -> String {
             100.0 * factor.std
         )
     });
+    let masses = found.masses.iter().enumerate();
+    let masses = masses.map(|(m, one)| format!("mass at sensor {m}: {:.4e} ± {:.1e}\n", one.mass, one.std));
+    let calibrations = found.calibrations.iter().enumerate().map(|(m, one)| {
+        let what = if m == 0 { "force".to_owned() } else { format!("sensor {}", m - 1) };
+        format!("calibration of {what}: {:.3} ± {:.3} %\n", 100.0 * one.error, 100.0 * one.std)
+    });
     format!(
         "errors of the model, by {:.1} nats: s {:.3} %, s_a {:.2} %\n\n{}\n{}",
         found.evidence,
         100.0 * found.frequency_std,
         100.0 * found.shape_std,
         table(&rows),
-        factors.collect::<String>()
+        factors.chain(masses).chain(calibrations).collect::<String>()
     )
 }
 

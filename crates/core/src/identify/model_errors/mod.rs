@@ -147,6 +147,10 @@ const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
 const SHAPE_PRIOR_STD: f64 = 0.02;
 const CALIBRATION_PRIOR_STD: f64 = 0.01;
 const FACTOR_PRIOR_STD: f64 = 0.02;
+
+/// The same of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
+const SENSOR_MASS_PRIOR_STD: f64 = 0.005;
+
 const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
 const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
@@ -186,7 +190,7 @@ const PRIOR_MODES: f64 = 0.05;
 /// The same of what all modes have in common.
 const PRIOR_COMMON: f64 = 0.5;
 
-/// The same of calibrations: that of the force, and as a rule few sensors.
+/// The same of calibrations, that of the force and as a rule few sensors, and of masses at these.
 const PRIOR_CALIBRATIONS: f64 = 1.0;
 
 /// No measured response is better than this part of itself: what is smaller is no reason to doubt a model.
@@ -252,7 +256,8 @@ impl Sizes {
         let frequency = given.frequency.map_or(FREQUENCY_PRIOR_STD, |size| OWN_SHARE_OF_GIVEN_SIZE * size);
         let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
         let calibration = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD);
-        Self { frequency, loss_factor, shape, calibration, bend: [1.0; 2], common: 0.0, common_loss: 0.0 }
+        let (mass, bend) = (SENSOR_MASS_PRIOR_STD, [1.0; 2]);
+        Self { frequency, loss_factor, shape, calibration, mass, bend, common: 0.0, common_loss: 0.0 }
             .with_common(known)
     }
 
@@ -1101,6 +1106,11 @@ impl<'a> Measured<'_, 'a> {
                     let gains = fitting.gains().collect();
                     let prior = (CALIBRATION_PRIOR_STD, PRIOR_CALIBRATIONS);
                     sizes.calibration = fresh(gains, sizes.calibration, prior);
+                }
+                if fitting.kinds.masses {
+                    // A light structure carries a large one: a narrow prior would make other errors and the unknown take a part of it.
+                    let masses = fitting.masses().collect();
+                    sizes.mass = fresh(masses, sizes.mass, (SENSOR_MASS_PRIOR_STD, PRIOR_CALIBRATIONS));
                 }
                 sizes = sizes.with_common(fitting.known);
                 if self.given_sizes.frequency.is_none() {

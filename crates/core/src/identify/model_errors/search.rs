@@ -54,7 +54,7 @@ pub(super) struct Fitting<'t, 'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kinds {
     pub(super) damping: Damping,
-    masses: bool,
+    pub(super) masses: bool,
 }
 
 /// Errors of damping that are searched.
@@ -112,9 +112,6 @@ fn is_frequency_part(part: usize) -> bool {
     part % COMMON_PARTS < COMMON_FREQUENCY_PARTS
 }
 
-/// Standard deviation of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
-const SENSOR_MASS_STD: f64 = 0.005;
-
 /// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
 const RIGID_BODY_STD: f64 = 0.05;
 
@@ -132,6 +129,8 @@ pub(super) struct Sizes {
     pub(super) shape: f64,
     /// Of g_m.
     pub(super) calibration: f64,
+    /// Of κ_m, over the apparent mass there.
+    pub(super) mass: f64,
     /// Of bends of ln|E| and of the phase, over the usual ones.
     pub(super) bend: [f64; 2],
 }
@@ -416,7 +415,7 @@ impl Fitting<'_, '_> {
         self.first_factor() + self.factors.len()
     }
 
-    fn masses(&self) -> std::ops::Range<usize> {
+    pub(super) fn masses(&self) -> std::ops::Range<usize> {
         self.first_mass()..self.first_gain()
     }
 
@@ -721,7 +720,7 @@ impl Fitting<'_, '_> {
         let only_if = |is_looked_for: bool, std: f64| if is_looked_for { std } else { NEGLIGIBLE_STD };
         let damping = |std: f64| only_if(self.kinds.damping == Damping::Own, std);
         let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
-        let mass = only_if(self.kinds.masses, SENSOR_MASS_STD);
+        let mass = only_if(self.kinds.masses, sizes.mass);
         self.in_common(false).for_each(|i| set(i, common_loss));
         if let Some((place, mesh)) = self.of_mesh() {
             set(place, mesh.remainder);

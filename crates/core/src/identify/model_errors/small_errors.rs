@@ -166,6 +166,7 @@ impl<'t, 'a> About<'t, 'a> {
             common_loss: part * usual.common_loss,
             shape: part * usual.shape,
             calibration: part * usual.calibration,
+            mass: usual.mass,
             bend: right.sizes.bend,
         };
         let known = if with_least { whole.known.smaller(part) } else { whole.known };
