@@ -615,7 +615,8 @@ impl Fitting<'_, '_> {
         let is_mass = self.masses().contains(&coordinate);
         let is_own_damping = self.own().contains(&coordinate) && !self.is_frequency(coordinate);
         let shared = coordinate.checked_sub(self.curves.count()).filter(|_| coordinate < self.first_own());
-        let is_common_damping = shared.is_some_and(|part| !is_frequency_part(part));
+        let is_common_damping =
+            shared.is_some_and(|part| !is_frequency_part(part)) && self.of_unknown_loss() != Some(coordinate);
         let is_left_out = (self.held && coordinate < self.curves.count())
             || (is_mass && !self.kinds.masses)
             || (is_common_damping && self.kinds.damping == Damping::None)
@@ -722,6 +723,9 @@ impl Fitting<'_, '_> {
         let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
         let mass = only_if(self.kinds.masses, sizes.mass);
         self.in_common(false).for_each(|i| set(i, common_loss));
+        // No response shows the error of the unknown's loss factor, however little there is of errors of damping.
+        let of_unknown = sizes.common_loss.max(self.known.least_of_unknown_loss);
+        self.of_unknown_loss().into_iter().for_each(|i| set(i, of_unknown));
         if let Some((place, mesh)) = self.of_mesh() {
             set(place, mesh.remainder);
         }
