@@ -165,20 +165,19 @@ impl From<LawsOutcome> for Identification {
         let LawsOutcome { free, fits, lines, channels, fit, work, subspace_size } = laws;
         // The noise and the sensors of the band, as each frequency alone shows them.
         let per_frequency = free.lines.clone();
+        let constants = best(&fits).map(|law| of_law(law, &lines, fit)).into_iter().collect();
         let band = BandOutcome { lines, work, subspace_size, fit, ..free };
-        let constants = best(&fits).map(|law| of_law(law, fit)).into_iter().collect();
         Self { constants, laws: fits, free: per_frequency, channels, ..band.into() }
     }
 }
 
-/// The law of a single unknown as what holds for the band.
-fn of_law(fit: &LawFit, band: Option<GoodnessOfFit>) -> BandValue {
+/// The law of a single unknown as what holds for the band. Its parameters may be known only together: where the modulus that they make is known, so is the unknown.
+fn of_law(fit: &LawFit, lines: &[Line], band: Option<GoodnessOfFit>) -> BandValue {
     let number = |one: &Estimate| Number { name: one.name.clone(), value: one.value, std: one.std };
     let numbers: Vec<Number> = fit.parameters.iter().map(number).collect();
-    let status = Status::of([
-        (!numbers.iter().all(Number::is_identifiable), Status::NotIdentifiable),
-        (!fit.converged, Status::Failed),
-    ]);
+    let is_known =
+        numbers.iter().all(Number::is_identifiable) || lines.iter().any(|line| line.status == Status::Ok);
+    let status = Status::of([(!is_known, Status::NotIdentifiable), (!fit.converged, Status::Failed)]);
     BandValue { unknowns: 0, numbers, law: fit.law.clone(), at_bound: false, status: status.within(band) }
 }
 
