@@ -112,7 +112,7 @@ def hints_of(made: _C) -> _C:
 
 def numbers(values: Any, name: str, *, kinds: str = "iuf", expected: str = "real numbers") -> NDArray[Any]:
     """An array of numbers of these kinds, of any shape."""
-    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise refuse(name, expected, "masked values")
     try:
         array = np.asarray(values)
@@ -128,7 +128,8 @@ def _vector(array: NDArray[Any], name: str) -> NDArray[Any]:
     """A vector, also where it stands as a row or a column of a table."""
     if sum(size != 1 for size in array.shape) > 1:
         raise refuse(name, "one dimension", f"an array of {' x '.join(map(str, array.shape))}")
-    return np.atleast_1d(array).ravel()
+    vector: NDArray[Any] = np.atleast_1d(array).ravel()
+    return vector
 
 
 def real(values: ArrayLike, name: str) -> Real:
