@@ -73,6 +73,21 @@ fn a_table_of_moduli_tells_its_law() {
 }
 
 #[test]
+fn a_law_with_more_parameters_than_the_table_shows_is_not_settled_and_the_words_say_what_helps() {
+    let folder = tempfile::tempdir().unwrap();
+    // A constant without damping: any Zener body that is stiff enough has it.
+    let lines: String = (1..30).map(|k| format!("{},2e9,0\n", 100 * k)).collect();
+    std::fs::write(folder.path().join("flat.csv"), "frequency_hz,storage,loss_factor\n".to_owned() + &lines)
+        .unwrap();
+    let said = done(folder.path(), &["fit", "flat.csv", "--law", "zener"]);
+    assert!(said.contains("agree, not settled"), "{said}");
+    assert!(said.contains("the search for zener did not converge"), "{said}");
+    assert!(said.contains("take a law with fewer parameters"), "{said}");
+    let said = done(folder.path(), &["fit", "flat.csv", "--law", "constant"]);
+    assert!(!said.contains("did not converge"), "{said}");
+}
+
+#[test]
 fn what_is_no_table_or_no_law_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("one.csv"), "frequency_hz,storage,loss_factor\n1,2,3\n").unwrap();

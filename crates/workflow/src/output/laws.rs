@@ -122,6 +122,13 @@ pub fn laws_text(fits: &[LawFit], misfits: &[Option<Misfit>], of: FactorUnit) ->
             fit.starts
         );
     }
+    if !chosen.converged {
+        let _ = writeln!(
+            text,
+            "  the search for {} did not converge: other parameters fit the data about as well; take a law with fewer parameters, or varies = \"smooth\"",
+            chosen.kind
+        );
+    }
     if chosen.sigma_known && chosen.reduced_chi_squared().is_some_and(|chi| chi > LARGE_CHI_SQUARED) {
         text += "  no law explains the data within their standard deviations: those hold noise only, and so do the parameters'\n";
     }
