@@ -19,8 +19,8 @@ const PIVOT_RATIO: f64 = 0.640_388_203_202_208_4;
 
 /// Pᵀ A P = L D Lᵀ of a complex A = Aᵀ, L with a diagonal of ones, D of one and two rows.
 ///
-/// The largest diagonal entry is a pivot by itself where it is not much smaller than the rest of its column. Otherwise rows are gone through until an entry is the
-/// largest of its row and of its column, and both are one pivot.
+/// A diagonal entry is a pivot by itself where it is not much smaller than the rest of its column: the next one if it is so, otherwise the largest. Where that one is not,
+/// rows are gone through until an entry is the largest of its row and of its column, and both rows are one pivot.
 ///
 /// # Source
 /// C. Ashcraft, R. G. Grimes, J. G. Lewis, SIAM J. Matrix Anal. Appl. 20 (1998) 513–561 (the largest entry of its row and column); J. R. Bunch, L. Kaufman,
@@ -61,16 +61,14 @@ impl Ldlt {
         assert_eq!(a.nrows(), a.ncols());
         let mut ldlt = Self::room(a.nrows());
         let rows = ldlt.rows;
-        let mut diagonal = vec![0.0; 2 * rows];
         for (j, column) in ldlt.columns_mut().chunks_exact_mut((2 * rows).max(1)).enumerate() {
             let (re, im) = column.split_at_mut(rows);
             for ((re, im), a) in re.iter_mut().zip(im).zip(a.column(j)).skip(j) {
                 (*re, *im) = (a.re, a.im);
             }
-            (diagonal[j], diagonal[rows + j]) = (a[(j, j)].re, a[(j, j)].im);
         }
         let is_finite = ldlt.columns.iter().all(|x| x.is_finite());
-        if is_finite { Ok(ldlt.factorised(&mut diagonal)) } else { Err(NoConvergence) }
+        if is_finite { Ok(ldlt.factorised()) } else { Err(NoConvergence) }
     }
 
     /// Factorises Σ θ_g S_g of real symmetric n × n matrices, column after column, of which the lower triangles are read.
@@ -84,9 +82,8 @@ impl Ldlt {
         assert!(parts.iter().all(|(_, matrix)| matrix.len() == dim * dim));
         let mut ldlt = Self::room(dim);
         let rows = ldlt.rows;
-        let mut diagonal = vec![0.0; 2 * rows];
-        let sum = Combination { dim, rows, parts, sum: ldlt.columns_mut(), diagonal: &mut diagonal };
-        if Arch::new().dispatch(sum) { Ok(ldlt.factorised(&mut diagonal)) } else { Err(NoConvergence) }
+        let sum = Combination { dim, rows, parts, sum: ldlt.columns_mut() };
+        if Arch::new().dispatch(sum) { Ok(ldlt.factorised()) } else { Err(NoConvergence) }
     }
 
     /// Zeros in place of L.
@@ -103,9 +100,13 @@ impl Ldlt {
         &mut self.columns[self.start..][..2 * self.rows * self.dim]
     }
 
-    fn factorised(mut self, diagonal: &mut [f64]) -> Self {
+    fn factorised(mut self) -> Self {
         let step = 2 * self.rows;
-        let mut room = vec![0.0; (2 + PANEL + 1) * step];
+        let mut room = vec![0.0; (3 + PANEL + 1) * step];
+        let (diagonal, room) = room.split_at_mut(step);
+        for (j, column) in self.columns_mut().chunks_exact(step.max(1)).enumerate() {
+            set(diagonal, j, entry(column, j));
+        }
         let (own, room) = room.split_at_mut(step);
         let (other, weights) = room.split_at_mut(step);
         Arch::new().dispatch(Factorise { ldlt: &mut self, diagonal, own, other, weights });
@@ -273,7 +274,6 @@ struct Combination<'a> {
     rows: usize,
     parts: &'a [(c64, &'a [f64])],
     sum: &'a mut [f64],
-    diagonal: &'a mut [f64],
 }
 
 impl WithSimd for Combination<'_> {
@@ -281,7 +281,7 @@ impl WithSimd for Combination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
-        let Self { dim, rows, parts, sum, diagonal } = self;
+        let Self { dim, rows, parts, sum } = self;
         let mut finite = true;
         for (j, column) in sum.chunks_exact_mut((2 * rows).max(1)).enumerate() {
             let (re, im) = column.split_at_mut(rows);
@@ -298,7 +298,6 @@ impl WithSimd for Combination<'_> {
             for (re, im) in re.iter().zip(&*im) {
                 finite &= re.is_finite() & im.is_finite();
             }
-            (diagonal[j], diagonal[rows + j]) = (re[j - from], im[j - from]);
         }
         finite
     }
