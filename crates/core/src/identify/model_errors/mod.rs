@@ -147,12 +147,11 @@ const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
 const SHAPE_PRIOR_STD: f64 = 0.02;
 const CALIBRATION_PRIOR_STD: f64 = 0.01;
 const FACTOR_PRIOR_STD: f64 = 0.02;
+const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
+const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
 /// The same of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
 const SENSOR_MASS_PRIOR_STD: f64 = 0.005;
-
-const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
-const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
 
 /// What the stiffness of an unknown is known to at least, however little of the strain energy it has: no natural frequency shows it.
 const MAX_FACTOR_PRIOR_STD: f64 = 0.25;
