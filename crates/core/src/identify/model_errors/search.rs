@@ -3,7 +3,7 @@
 use super::curve::Curves;
 use super::found::{Assumption, ContradictedAssumption};
 use super::mesh::BetweenMeshes;
-use super::{CALIBRATION_PRIOR_STD, KnownSizes};
+use super::{CALIBRATION_PRIOR_STD, KnownSizes, UNDAMPED_SHARE_RATIO};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
@@ -101,11 +101,13 @@ pub(super) struct FactorPrior {
 }
 
 /// Parts that the δ_i have in common: of the first group a scale of all stiffness; of each group what grows with ω_i and with its square, as the errors of meshes do, in
-/// proportion to the strain energy there; of the first group what falls with 1/ω_i², as the errors of supports do. Then two of the ε_i of each group, the same for all modes and with 1/ω_i².
-const COMMON_PARTS: usize = 6;
+/// proportion to the strain energy there; of the first group what falls with 1/ω_i², as the errors of supports do. Then four of the ε_i of each group: the same for all modes, with 1/ω_i², and with
+/// ω_i and its square, since what a mesh has too much of stiffness has another damping than the mode.
+const COMMON_PARTS: usize = 8;
 const COMMON_FREQUENCY_PARTS: usize = 4;
 const OF_MESH: usize = 1;
 const OF_SUPPORT: usize = 3;
+const LOSS_OF_MESH: usize = 6;
 
 /// Whether a common part is one of the δ_i, and not of the ε_i.
 fn is_frequency_part(part: usize) -> bool {
@@ -317,7 +319,10 @@ impl Fitting<'_, '_> {
                     // A support is no part of either stiffness.
                     parts[OF_SUPPORT] = share * support;
                 }
-                false => parts[first + COMMON_FREQUENCY_PARTS..][..2].copy_from_slice(&[1.0, support]),
+                false => {
+                    let of_loss = [1.0, support, omega, omega * omega];
+                    parts[first + COMMON_FREQUENCY_PARTS..][..of_loss.len()].copy_from_slice(&of_loss);
+                }
             }
         }
         if let Some(place) = self.of_unknown_loss() {
@@ -392,6 +397,11 @@ impl Fitting<'_, '_> {
     fn is_of_mesh(&self, coordinate: usize) -> bool {
         let part = (coordinate - self.curves.count()) % COMMON_PARTS;
         (OF_MESH..OF_SUPPORT).contains(&part)
+    }
+
+    /// Whether it is a common part of the ε_i that grows with frequency.
+    fn is_loss_of_mesh(&self, coordinate: usize) -> bool {
+        (coordinate - self.curves.count()) % COMMON_PARTS >= LOSS_OF_MESH
     }
 
     pub(super) fn first_factor(&self) -> usize {
@@ -722,7 +732,10 @@ impl Fitting<'_, '_> {
         let damping = |std: f64| only_if(self.kinds.damping == Damping::Own, std);
         let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
         let mass = only_if(self.kinds.masses, sizes.mass);
+        let loss_of_mesh = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * self.known.least_of_mesh);
+        let loss_of_mesh = only_if(self.kinds.damping != Damping::None, loss_of_mesh);
         self.in_common(false).for_each(|i| set(i, common_loss));
+        self.in_common(false).filter(|&i| self.is_loss_of_mesh(i)).for_each(|i| set(i, loss_of_mesh));
         // No response shows the error of the unknown's loss factor, however little there is of errors of damping.
         let of_unknown = sizes.common_loss.max(self.known.least_of_unknown_loss);
         self.of_unknown_loss().into_iter().for_each(|i| set(i, of_unknown));
