@@ -452,8 +452,12 @@ fn constants_of_narrow_modes_leave_the_noise_that_the_responses_show() {
         let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
         let nominal_factors = [*nominal * truth[0], nominal * truth[1], truth[2]];
         let varies = Variation::law(LawKind::Constant);
-        let found =
-            sprung_identified((8, nominal_factors), varies, (&frequency_hz, &u), ModelErrors::Estimated);
+        let found = sprung_identified(
+            (8, nominal_factors),
+            [varies.clone(), varies],
+            (&frequency_hz, &u),
+            ModelErrors::Estimated,
+        );
         // Noise of 1 % of each response, for real and imaginary part together; χ² of some hundred numbers is good to some per cent.
         let level = found.noise.level.unwrap();
         assert!((level / (0.01 / 2f64.sqrt()) - 1.0).abs() < 0.1, "{nominal}: {level}");
@@ -485,8 +489,7 @@ fn almost_right(elements: usize, model_errors: ModelErrors) -> Identification {
     let truth = [c64::new(STORAGE, 7e8), c64::new(2e3, 4.0), c64::new(2700.0, 0.0)];
     let (u, _) = sprung_measured((48, truth), [1.0; 3], &frequency_hz);
     let nominal = [0.9 * truth[0], 0.9 * truth[1], truth[2]];
-    let found =
-        sprung_identified((elements, nominal), Variation::Constant, (&frequency_hz, &u), model_errors);
+    let found = sprung_identified((elements, nominal), CONSTANTS, (&frequency_hz, &u), model_errors);
     assert!(found.constants.iter().all(|value| value.status == Status::Ok), "{:?}", found.fit);
     found
 }
@@ -519,6 +522,32 @@ fn bars_hold_errors_that_noise_hides() {
     assert!(averaged > noise && averaged < 3.0 * noise, "{noise} {averaged}");
 }
 
+/// The same with a modulus of its own at each frequency, or a smooth one, beside springs of one stiffness.
+#[test]
+fn a_curve_beside_springs_holds_errors_that_noise_hides() {
+    let frequency_hz = linear_hz(5.0, 560.0, 80);
+    let truth = [c64::new(STORAGE, 7e8), c64::new(2e3, 4.0), c64::new(2700.0, 0.0)];
+    let (u, _) = sprung_with_noise(0.003, (48, truth), [1.0; 3], &frequency_hz);
+    let nominal = [0.9 * truth[0], 0.9 * truth[1], truth[2]];
+    let most_off = |varies: &Variation, errors: ModelErrors| -> f64 {
+        let varies = [varies.clone(), Variation::Constant];
+        let found = sprung_identified((32, nominal), varies, (&frequency_hz, &u), errors);
+        assert!(found.model_errors.is_none(), "{:?}", found.model_errors);
+        let known: Vec<&Line> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
+        assert!(known.len() >= 76, "{}", known.len());
+        let off = |line: &&Line| {
+            let [value, std] = [line.storage().unwrap(), line.uncertainty().unwrap().storage_std];
+            (value - STORAGE).abs() / std
+        };
+        known.iter().map(off).fold(0.0, f64::max)
+    };
+    for varies in [Variation::PerFrequency, Variation::Smooth] {
+        let [as_it_is, averaged] =
+            [ModelErrors::None, ModelErrors::Estimated].map(|errors| most_off(&varies, errors));
+        assert!(as_it_is > 8.0 && averaged < 4.0, "{varies:?}: {as_it_is} {averaged}");
+    }
+}
+
 /// A highly damped beam on springs with a coarse mesh. The loss factors of all modes may have an error in common, of ten times the scatter of natural frequencies. No measurement
 /// separates it from the loss factor of the beam, so it is in the bar of that. A coarse mesh that is wrong beyond its modes must not seem to separate them.
 #[test]
@@ -528,11 +557,12 @@ fn the_loss_factor_holds_what_all_modes_may_have_in_common() {
     let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
     let nominal = [0.9 * truth[0], 0.9 * truth[1], truth[2]];
     let measured = (&frequency_hz[..], &u[..]);
-    let found = sprung_identified((8, nominal), Variation::Constant, measured, ModelErrors::Estimated);
+    let found = sprung_identified((8, nominal), CONSTANTS, measured, ModelErrors::Estimated);
     let [_, eta] = &found.constants[0].numbers[..] else { panic!("a complex constant") };
     assert_eq!(found.constants[0].status, Status::Ok, "{:?}", found.fit);
     let (off, scatter) = ((eta.value - 0.5).abs(), found.model_errors.as_ref().unwrap().frequency_std);
-    assert!(off < 0.002 * 0.5 && eta.std.unwrap() > 8.0 * scatter * 0.5, "{eta:?} {scatter}");
+    // The mesh errs by up to 5 %, and loss factors may have a trend too.
+    assert!(off < 0.005 * 0.5 && eta.std.unwrap() > 8.0 * scatter * 0.5, "{eta:?} {scatter}");
 }
 
 /// A highly damped beam on a coarse mesh, its modulus by law. The corrected model has the errors of the search, with the one that loss factors have in common in the unknown: it explains the band as the search does.
@@ -574,7 +604,7 @@ fn the_loss_factor_of_a_spring_holds_what_gives_beside_it() {
     let (u, _) = sprung_measured((40, truth), [1.0; 3], &frequency_hz);
     let nominal = [0.9 * truth[0], 0.9 * truth[1], truth[2]];
     let measured = (&frequency_hz[..], &u[..]);
-    let found = sprung_identified((8, nominal), Variation::Constant, measured, ModelErrors::Estimated);
+    let found = sprung_identified((8, nominal), CONSTANTS, measured, ModelErrors::Estimated);
     for (constant, truth) in found.constants.iter().zip([beam, spring]) {
         assert_eq!(constant.status, Status::Ok, "{:?}", found.fit);
         for (number, truth) in constant.numbers.iter().zip([truth.re, loss_factor(truth)]) {
@@ -610,16 +640,19 @@ fn sprung_unknowns(model: &DynamicStiffness) -> [Unknown; 2] {
     })
 }
 
+const CONSTANTS: [Variation; 2] = [Variation::Constant, Variation::Constant];
+
 /// Damped beam and springs, from nominal factors and responses whose noise nobody knows.
 fn sprung_identified(
     (elements, nominal): (usize, [c64; 3]),
-    varies: Variation,
+    varies: [Variation; 2],
     (frequency_hz, receptance): (&[f64], &[Vec<c64>]),
     model_errors: ModelErrors,
 ) -> Identification {
     let (model, experiment) = sprung(elements, nominal, &[0.8, 0.4, 0.2]);
-    let unknowns =
-        sprung_unknowns(&model).map(|unknown| Unknown { varies: varies.clone(), real: false, ..unknown });
+    let unknowns: Vec<Unknown> = std::iter::zip(sprung_unknowns(&model), varies)
+        .map(|(unknown, varies)| Unknown { varies, real: false, ..unknown })
+        .collect();
     let frfs = Frfs { frequency_hz, receptance, noise: Noise::Unknown };
     let problem = Problem::new(&model, &experiment, &unknowns, &[], frfs).unwrap();
     let context = Context { for_each: &sequential, progress: &|_, _, _| {} };

@@ -31,7 +31,7 @@ use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::{Contributions, Uncertainty};
 use crate::laws::{Datum, Evidence, LawFit, LawKind, LineResidual, Parametrization, best, starts};
 use crate::least_squares::{LocalMinima, Residuals, Search, minimise};
-use crate::material::OutsideTable;
+use crate::material::{OutsideTable, loss_factor};
 use crate::response::{Work, relative_error};
 use crate::subspace::Subspace;
 
@@ -247,7 +247,13 @@ impl Fitting<'_, '_> {
             |law: &LawFit| self.goodness(law, &free.noise).0.is_none_or(|fit| fit.verdict != Explained::No);
         let errors = match &free.model_errors {
             Some(before) => {
-                Some(estimate_with_laws(whole, &measured, before, &curves, &[theta.clone()], for_each)?)
+                // Beside errors the law that a right model has may be far from the smooth curve.
+                let through = law_through(law, before, 0, self.band.frequency_hz);
+                let through =
+                    through.map(|own| own.into_iter().chain(theta[law.kind.count()..].iter().copied()));
+                let starts: Vec<Vec<f64>> =
+                    [theta.clone()].into_iter().chain(through.map(Iterator::collect)).collect();
+                Some(estimate_with_laws(whole, &measured, before, &curves, &starts, for_each)?)
             }
             None if is_explained(&fits[place]) => None,
             None => {
@@ -550,4 +556,26 @@ pub(in crate::identify) fn nearest(parametrization: &Parametrization, data: &[Da
     let search = Search { starts: 3, patience: 30, same: 0.0 };
     let evaluate = |theta: &[f64]| parametrization.residuals(data, theta);
     if enough { minimise(&starts(parametrization, data), &evaluate, &search) } else { None }
+}
+
+/// What a smooth curve beside errors of the model is good to as a start for a law, relative. These tilt E′, so that of dispersion and damping the latter says
+/// which law it is.
+const STORAGE_OF_CURVE_STD: f64 = 0.05;
+const LOSS_FACTOR_OF_CURVE_STD: f64 = 0.05;
+
+/// The law nearest to the smooth curve of an unknown that was found with the errors of the model; `None` where too few lines have a value.
+pub(in crate::identify) fn law_through(
+    parametrization: &Parametrization,
+    smooth: &Estimated,
+    unknown: usize,
+    frequency_hz: &[f64],
+) -> Option<Vec<f64>> {
+    let datum = |(line, &hz): (usize, &f64)| -> Option<Datum> {
+        let value = smooth.values(line, hz)?[unknown];
+        let eta = loss_factor(value);
+        let std = [STORAGE_OF_CURVE_STD * value.re, LOSS_FACTOR_OF_CURVE_STD * eta];
+        (value.re > 0.0 && eta > 0.0).then(|| Datum::storage_and_loss(hz, [value.re, eta], std, 0.0))
+    };
+    let data: Vec<Datum> = frequency_hz.iter().enumerate().filter_map(datum).collect();
+    Some(nearest(parametrization, &data)?.best.theta)
 }

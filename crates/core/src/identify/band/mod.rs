@@ -28,7 +28,7 @@ pub(super) use calibration::identify_band_scaled;
 pub(super) use candidates::Fit;
 pub(super) use initial_calibration::by_shape;
 pub(crate) use initial_calibration::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
-pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, nearest};
+pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, law_through, nearest};
 pub(super) use neighbourhoods::{
     BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
     reduction_error, train,

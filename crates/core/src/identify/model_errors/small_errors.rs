@@ -33,7 +33,17 @@ struct Tried {
     part: f64,
     /// Whether the least sizes that are assumed are as much smaller.
     with_least: bool,
-    only_frequencies: bool,
+    errors: Errors,
+}
+
+/// Which errors of a model are tried.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Errors {
+    All,
+    /// Those of natural frequencies alone.
+    Frequencies,
+    /// What natural frequencies have in common alone: elements that lack shear err by more from mode to mode, and by no scatter.
+    Trend,
 }
 
 /// Where a right model explains a band.
@@ -56,26 +66,15 @@ struct Posterior {
     step: Vec<f64>,
 }
 
-/// Small errors of all kinds, and of natural frequencies alone.
-fn small() -> impl Iterator<Item = Tried> {
-    let of = |only_frequencies| {
-        SMALL_SIZE_PARTS.into_iter().map(move |part| Tried { part, with_least: true, only_frequencies })
-    };
-    [false, true].into_iter().flat_map(of)
-}
-
 impl SmallErrors {
     /// About a right model.
     pub(super) fn new(about: &About<'_, '_>) -> Option<Self> {
-        let usual = USUAL_SIZE_PARTS.into_iter().map(|part| Tried {
-            part,
-            with_least: false,
-            only_frequencies: false,
-        });
+        let usual = |part| Tried { part, with_least: false, errors: Errors::All };
+        let usual = USUAL_SIZE_PARTS.into_iter().map(usual);
         let nats = |tried: Tried| Some(about.with_errors(tried)?.nats);
         Some(Self {
             usual_nats: usual.filter_map(nats).reduce(f64::max)?,
-            small_nats: small().filter_map(nats).reduce(f64::max)?,
+            small_nats: about.small().filter_map(nats).reduce(f64::max)?,
         })
     }
 }
@@ -96,6 +95,15 @@ impl<'t, 'a> About<'t, 'a> {
         Some(Self { whole, right, of_right, place, normal })
     }
 
+    /// Small errors of all kinds, and of natural frequencies alone. A curve beside other unknowns takes most of what natural frequencies have in common, so that
+    /// the data say little of that: it is tried alone too. Of one unknown that would make the bars of a right law many times as long.
+    fn small(&self) -> impl Iterator<Item = Tried> {
+        let of =
+            |errors| SMALL_SIZE_PARTS.into_iter().map(move |part| Tried { part, with_least: true, errors });
+        let trend = self.whole.curves.is_beside_others().then_some(Errors::Trend);
+        [Errors::All, Errors::Frequencies].into_iter().chain(trend).flat_map(of)
+    }
+
     /// Second moments of all coordinates about the right model, n × n: Σ p_s (C_s + Δ_s Δ_sᵀ) with the posterior C_s and the step Δ_s of errors of each size s, and of none. `None`
     /// where a right model has no covariance.
     ///
@@ -103,7 +111,7 @@ impl<'t, 'a> About<'t, 'a> {
     /// Linear about the right model: errors that move a mode by more than its half-width are searched, not averaged.
     pub(super) fn second_moments(&self) -> Option<Vec<f64>> {
         let n = self.whole.count();
-        let each: Vec<Posterior> = small().filter_map(|tried| self.with_errors(tried)).collect();
+        let each: Vec<Posterior> = self.small().filter_map(|tried| self.with_errors(tried)).collect();
         // Of none the evidence is 0 nats.
         let most = each.iter().map(|one| one.nats).fold(0.0, f64::max);
         let weight = |one: &Posterior| ODDS_OF_ERRORS / each.len() as f64 * (one.nats - most).exp();
@@ -124,7 +132,7 @@ impl<'t, 'a> About<'t, 'a> {
 
     /// The covariance of the coordinates of a right model.
     pub(super) fn of_none(&self) -> Option<Vec<f64>> {
-        let prior = self.precision(Tried { part: 1.0, with_least: true, only_frequencies: false });
+        let prior = self.precision(Tried { part: 1.0, with_least: true, errors: Errors::All });
         let precision = self.block(&self.normal.with_prior(&prior));
         Some(Cholesky::new(self.of_right.len(), &precision).ok()?.inverse())
     }
@@ -156,7 +164,7 @@ impl<'t, 'a> About<'t, 'a> {
     }
 
     /// The prior's precision, n × n.
-    fn precision(&self, Tried { part, with_least, only_frequencies }: Tried) -> Vec<f64> {
+    fn precision(&self, Tried { part, with_least, errors }: Tried) -> Vec<f64> {
         let Self { whole, right, of_right, .. } = self;
         let usual = Sizes::prior(whole.known);
         let sizes = Sizes {
@@ -171,10 +179,16 @@ impl<'t, 'a> About<'t, 'a> {
         };
         let known = if with_least { whole.known.smaller(part) } else { whole.known };
         let mut precision = Fitting { known, ..**whole }.precision(&sizes);
-        if only_frequencies {
-            let n = whole.count();
-            let others = whole.beside_frequencies().filter(|i| !of_right.contains(i));
+        let n = whole.count();
+        let mut leave_out = |coordinates: Vec<usize>| {
+            let others = coordinates.into_iter().filter(|i| !of_right.contains(i));
             others.for_each(|i| precision[i * n + i] = NEGLIGIBLE_STD.powi(-2));
+        };
+        if errors != Errors::All {
+            leave_out(whole.beside_frequencies().collect());
+        }
+        if errors == Errors::Trend {
+            leave_out(whole.own().collect());
         }
         precision
     }

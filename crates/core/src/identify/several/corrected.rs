@@ -9,7 +9,7 @@ use super::search::{BandSolution, Begin};
 use crate::c64;
 use crate::for_each::map;
 use crate::frfs::{Noise, standard_deviations};
-use crate::identify::band::{MAX_TRAINING_ROUNDS, nearest};
+use crate::identify::band::{MAX_TRAINING_ROUNDS, law_through};
 use crate::identify::form::Form;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline,
@@ -18,9 +18,7 @@ use crate::identify::model_errors::{
 use crate::identify::noise::{beside, levels, without};
 use crate::identify::options::ModelErrors;
 use crate::identify::unknown::{Unknown, Variation};
-use crate::laws::Datum;
 use crate::subspace::{Corrected, Point};
-use std::ops::Range;
 
 impl Task<'_, '_> {
     /// What is found when the errors of the model are estimated and corrected for; the same where a right model explains the band as well.
@@ -48,6 +46,8 @@ impl Task<'_, '_> {
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
         };
+        let has_errors = small.is_none() && errors.has_errors();
+        let errors = small.unwrap_or(errors);
         reduced.correct(&errors.modes, &errors.errors, self.context.for_each);
         let middle = self.omegas.len() / 2;
         let Some(values) = errors.values(middle, self.problem.frfs.frequency_hz[middle]) else {
@@ -66,7 +66,7 @@ impl Task<'_, '_> {
         let is_contradicted = !errors.contradicted_assumptions.is_empty();
         let judged = if is_contradicted { judged.of_other_model() } else { judged };
         SeveralOutcome {
-            model_errors: errors.has_errors().then(|| errors.found()),
+            model_errors: has_errors.then(|| errors.found()),
             leverage: found.leverage,
             ..judged
         }
@@ -175,13 +175,30 @@ impl Task<'_, '_> {
         };
         let (explanation, leverage) =
             estimate(reduced.whole(), &measured, &curves(false), self.context.for_each);
+        let small = |theta: Vec<f64>| -> Option<Estimated> {
+            let (model, for_each) = (reduced.whole(), self.context.for_each);
+            let small = averaged_over_small_errors(model, &measured, &curves(true), &theta, for_each)?;
+            Some(small.estimated)
+        };
+        let beside_curves = |errors: &Estimated| {
+            let is_right = !errors.has_errors();
+            is_right.then(|| small(errors.theta().to_vec())).flatten()
+        };
         let errors = match explanation {
             Explanation::Errors(errors) if (0..unknowns.len()).any(is_law) => errors,
+            Explanation::Errors(errors) => {
+                let small = beside_curves(&errors);
+                return (Explanation::Errors(errors), small, leverage);
+            }
             Explanation::RightModel => {
-                let small = self.averaged(reduced, solution, &measured, &curves(true));
+                // θ as a right model has it, with smooth curves for what has a value at each frequency.
+                let ranges = solution.coordinates.each.iter().map(|own| own.range.clone());
+                let ranges = ranges.chain([solution.coordinates.channels.range()]);
+                let theta: Vec<f64> = ranges.flat_map(|range| &solution.theta[range]).copied().collect();
+                let small = measured.through_answers(&curves(true), &theta).and_then(small);
                 return (Explanation::RightModel, small, leverage);
             }
-            explanation => return (explanation, None, leverage),
+            Explanation::OtherModel => return (Explanation::OtherModel, None, leverage),
         };
         let with = |of_law: &dyn Fn(&Own) -> Vec<f64>| -> Vec<f64> {
             let theta = |j: usize| match of(j).filter(|_| is_law(j)) {
@@ -192,7 +209,11 @@ impl Task<'_, '_> {
             (0..unknowns.len()).flat_map(theta).chain(of_channels).collect()
         };
         let of_right_model = |own: &Own| solution.theta[own.range.clone()].to_vec();
-        let of_smooth = |own: &Own| self.law_through(own, &errors).unwrap_or_else(|| of_right_model(own));
+        let through = |own: &Own| match &own.form {
+            Form::Law(law) => law_through(law, &errors, own.unknowns, self.problem.frfs.frequency_hz),
+            _ => None,
+        };
+        let of_smooth = |own: &Own| through(own).unwrap_or_else(|| of_right_model(own));
         let starts = [with(&of_smooth), with(&of_right_model)];
         let with_laws = estimate_with_laws(
             reduced.whole(),
@@ -202,43 +223,10 @@ impl Task<'_, '_> {
             &starts,
             self.context.for_each,
         );
+        let small = with_laws.as_ref().and_then(beside_curves);
         let explanation =
             with_laws.map_or(Explanation::OtherModel, |found| Explanation::Errors(Box::new(found)));
-        (explanation, None, leverage)
-    }
-
-    /// A right model whose error bars hold small errors, where every unknown has numbers that hold for the band.
-    fn averaged(
-        &self,
-        reduced: &Neighbourhoods<'_>,
-        solution: &BandSolution,
-        measured: &Measured<'_, '_>,
-        curves: &Curves,
-    ) -> Option<Estimated> {
-        let mut theta = vec![0.0; curves.count()];
-        let coordinates = &solution.coordinates;
-        let mut set = |at: Range<usize>, from: Range<usize>| theta[at].copy_from_slice(&solution.theta[from]);
-        coordinates.each.iter().for_each(|own| set(curves.range(own.unknowns), own.range.clone()));
-        set(curves.channels().range(), coordinates.channels.range());
-        let is_of_band = coordinates.each.len() == self.problem.unknowns.len();
-        let (model, for_each) = (reduced.whole(), self.context.for_each);
-        let averaged =
-            is_of_band.then(|| averaged_over_small_errors(model, measured, curves, &theta, for_each))?;
-        averaged.map(|averaged| averaged.estimated)
-    }
-
-    /// The law of an unknown nearest to the smooth curve that was found with the errors of the model.
-    fn law_through(&self, own: &Own, smooth: &Estimated) -> Option<Vec<f64>> {
-        let Form::Law(parametrization) = &own.form else { return None };
-        let frequency_hz = self.problem.frfs.frequency_hz;
-        let datum = |i: usize| -> Option<Datum> {
-            let value = smooth.values(i, frequency_hz[i])?[own.unknowns];
-            let [of_re, of_im, _] = smooth.covariance_at(own.unknowns, i, frequency_hz[i])?;
-            let std = of_re.max(of_im).sqrt();
-            (value.re > 0.0 && std > 0.0).then(|| Datum::circular(self.omegas[i], value, std))
-        };
-        let data: Vec<Datum> = (0..self.omegas.len()).filter_map(datum).collect();
-        Some(nearest(parametrization, &data)?.best.theta)
+        (explanation, small, leverage)
     }
 
     /// ∂y/∂(error) of a frequency's own coordinates, `[error][own]`.
