@@ -9,7 +9,7 @@
 //! the evidence of three explanations: a smooth modulus and a right model, a modulus that scatters from line to line and a right model, a smooth modulus and errors.
 //! It is a right model only where it is better by some nats. Of several unknowns each is a constant, a law or a spline.
 //!
-//! The errors of a mesh grow with ω_i, those of a support fall with 1/ω_i²: e is a sum of such parts. A rigid body has no stiffness that could be in error; its δ is that of a
+//! The errors of a mesh grow with ω_i, those of a support fall with 1/ω_i²: e is a sum of such parts, and so is what loss factors have in common. A rigid body has no stiffness that could be in error; its δ is that of a
 //! support that the model does not have. An error that all loss factors have in common is one of the unknown, Re p + i(1 + ε) Im p.
 //!
 //! # Source
