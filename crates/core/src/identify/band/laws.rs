@@ -249,10 +249,8 @@ impl Fitting<'_, '_> {
             Some(before) => {
                 // Beside errors the law that a right model has may be far from the smooth curve.
                 let through = law_through(law, before, 0, self.band.frequency_hz);
-                let through =
-                    through.map(|own| own.into_iter().chain(theta[law.kind.count()..].iter().copied()));
-                let starts: Vec<Vec<f64>> =
-                    [theta.clone()].into_iter().chain(through.map(Iterator::collect)).collect();
+                let through = through.map(|own| [&own[..], &theta[own.len()..]].concat());
+                let starts: Vec<Vec<f64>> = [Some(theta.clone()), through].into_iter().flatten().collect();
                 Some(estimate_with_laws(whole, &measured, before, &curves, &starts, for_each)?)
             }
             None if is_explained(&fits[place]) => None,

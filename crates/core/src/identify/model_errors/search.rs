@@ -393,15 +393,10 @@ impl Fitting<'_, '_> {
         (0..self.stiffness_errors()).map(of).collect()
     }
 
-    /// Whether it is a common part that grows with frequency.
+    /// Whether it is a common part, of the δ_i or of the ε_i, that grows with frequency.
     fn is_of_mesh(&self, coordinate: usize) -> bool {
         let part = (coordinate - self.curves.count()) % COMMON_PARTS;
-        (OF_MESH..OF_SUPPORT).contains(&part)
-    }
-
-    /// Whether it is a common part of the ε_i that grows with frequency.
-    fn is_loss_of_mesh(&self, coordinate: usize) -> bool {
-        (coordinate - self.curves.count()) % COMMON_PARTS >= LOSS_OF_MESH
+        (OF_MESH..OF_SUPPORT).contains(&part) || part >= LOSS_OF_MESH
     }
 
     pub(super) fn first_factor(&self) -> usize {
@@ -730,12 +725,12 @@ impl Fitting<'_, '_> {
         self.in_common(true).for_each(|i| set(i, sizes.common.max(least(i))));
         let only_if = |is_looked_for: bool, std: f64| if is_looked_for { std } else { NEGLIGIBLE_STD };
         let damping = |std: f64| only_if(self.kinds.damping == Damping::Own, std);
-        let common_loss = only_if(self.kinds.damping != Damping::None, sizes.common_loss);
+        let common_loss = |i: usize| {
+            let std = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * least(i));
+            only_if(self.kinds.damping != Damping::None, std)
+        };
         let mass = only_if(self.kinds.masses, sizes.mass);
-        let loss_of_mesh = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * self.known.least_of_mesh);
-        let loss_of_mesh = only_if(self.kinds.damping != Damping::None, loss_of_mesh);
-        self.in_common(false).for_each(|i| set(i, common_loss));
-        self.in_common(false).filter(|&i| self.is_loss_of_mesh(i)).for_each(|i| set(i, loss_of_mesh));
+        self.in_common(false).for_each(|i| set(i, common_loss(i)));
         // No response shows the error of the unknown's loss factor, however little there is of errors of damping.
         let of_unknown = sizes.common_loss.max(self.known.least_of_unknown_loss);
         self.of_unknown_loss().into_iter().for_each(|i| set(i, of_unknown));
