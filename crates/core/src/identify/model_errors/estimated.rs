@@ -1,11 +1,13 @@
 //! The errors of a model as a search has them, with their covariance.
 
 use super::curve::Curves;
+use super::factor_prior::FactorPrior;
+use super::fitting::Place;
 use super::found::{
     CalibrationError, ContradictedAssumption, FactorError, ModeError, ModelErrorsFound, SensorMass,
 };
+use super::kinds::Kinds;
 use super::mesh::{BetweenMeshes, MeshError};
-use super::search::{FactorPrior, Kinds, Place};
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::identify::channel::Calibration;

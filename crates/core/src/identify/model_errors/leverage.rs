@@ -1,6 +1,8 @@
 //! How far an error of a known factor, or of the mesh, moves the unknowns.
 
-use super::search::{FactorPrior, Fitting, Sizes};
+use super::factor_prior::FactorPrior;
+use super::fitting::Fitting;
+use super::sizes::Sizes;
 use super::{Leverage, LeverageOf, ROUGH_NEIGHBOURHOOD_TOL, Search, USUAL_NOISE};
 use crate::c64;
 use crate::for_each::map;

@@ -1,6 +1,6 @@
 //! What the mesh adds to the errors of single modes.
 
-use super::search::Fitting;
+use super::fitting::Fitting;
 
 /// Standard deviation of the part of the mesh's error of a mode over that of all modes: they converge by somewhat different orders.
 const ORDER_SCATTER: f64 = 0.3;

@@ -19,7 +19,10 @@
 mod causality;
 mod curve;
 mod estimated;
+mod factor_prior;
+mod fitting;
 mod found;
+mod kinds;
 mod leverage;
 mod local_stiffness;
 mod mesh;
@@ -27,7 +30,7 @@ mod mesh_scatter;
 mod modal_loss;
 mod paired;
 mod scatter;
-mod search;
+mod sizes;
 mod small_errors;
 mod split;
 mod tuned;
@@ -42,25 +45,30 @@ use crate::c64;
 use crate::for_each::ForEach;
 use crate::frfs::Noise;
 use crate::median::median;
-use crate::model::{FactorPart, ModelAt, Role};
 use crate::subspace::{ModalErrors, Modes, Point, Projection};
 pub(super) use curve::{Curve, Curves, Spline};
 pub(super) use estimated::{Estimated, covariance};
+pub(super) use fitting::PointAt;
 pub use found::{
     Assumption, CalibrationError, ContradictedAssumption, FactorError, Leverage, LeverageOf, ModeError,
     ModelErrorsFound, SensorMass,
 };
 pub(super) use mesh::Coarser;
 pub use mesh::MeshError;
-pub(super) use search::PointAt;
 pub(super) use split::Split;
 use std::f64::consts::TAU;
 
+use factor_prior::{FactorPrior, priors};
+use fitting::{Fitting, Linearised, Minimum, Place};
 use frfit_linalg::dense::Cholesky;
+use kinds::{Damping, Kinds};
 use local_stiffness::add_local_compliance;
 use mesh::BetweenMeshes;
 use modal_loss::add_modal_loss;
-use search::{Damping, FactorPrior, Fitting, Kinds, Linearised, Minimum, Place, Sizes};
+use sizes::{
+    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, KnownSizes, MODAL_LOSS_FACTOR_PRIOR_STD,
+    SENSOR_MASS_PRIOR_STD, SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
+};
 use small_errors::{About, SmallErrors};
 
 /// What is known of the noise.
@@ -140,50 +148,6 @@ const STEPS_AT_LAST_LEVEL: usize = 5;
 const MAX_SIZE_ROUNDS: usize = 8;
 const EVIDENCE_TOL: f64 = 0.2;
 
-/// Before the data: natural frequencies are good to a half per cent, loss factors of modes to one (a stiffness that is not there may have any), calibrations too, shapes and known factors to two, loss factors of known stiffnesses to a tenth of themselves
-/// or what bearings and air have.
-const FREQUENCY_PRIOR_STD: f64 = 0.005;
-const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
-const SHAPE_PRIOR_STD: f64 = 0.02;
-const CALIBRATION_PRIOR_STD: f64 = 0.01;
-const FACTOR_PRIOR_STD: f64 = 0.02;
-const LOSS_FACTOR_PRIOR_STD: f64 = 0.002;
-const LOSS_FACTOR_PRIOR_RATIO: f64 = 0.1;
-
-/// The same of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
-const SENSOR_MASS_PRIOR_STD: f64 = 0.005;
-
-/// What the stiffness of an unknown is known to at least, however little of the strain energy it has: no natural frequency shows it.
-const MAX_FACTOR_PRIOR_STD: f64 = 0.25;
-
-/// A shape differs from the model's in about so many independent ways, whatever the number of sensors: a support that gives moves all of them.
-const INDEPENDENT_ERRORS_OF_A_SHAPE: f64 = 2.0;
-
-/// What all modes have in common is larger than their scatter: a mesh errs in one sense. Where a coarser mesh shows that error, the rest does so less:
-/// shear that the elements lack, a thickness.
-const COMMON_RATIO: f64 = 5.0;
-const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
-
-/// A mesh of beams or plates errs by as much at the top of the band, where its modes scatter hardly at all: an unknown that varies with frequency absorbs it.
-const LEAST_OF_MESH_STD: f64 = 0.01;
-
-/// A curve beside other unknowns absorbs what single modes err by too, so that the data do not show its size: elements of a coarse mesh err by other amounts in
-/// twisting than in bending.
-const LEAST_OF_MODES_STD: f64 = 0.02;
-
-/// A support that gives alike in all modes is taken for a smaller modulus, and its damping for that of the material: where it has two per cent of the strain energy and no
-/// damping, the loss factor is found two per cent too small.
-const LEAST_OF_UNKNOWN_LOSS_STD: f64 = 0.02;
-
-/// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
-const MAX_COMMON_STD: f64 = 0.025;
-
-/// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
-const COMMON_LOSS_RATIO: f64 = 2.0;
-
-/// A stiffness that is not in the model and changes ω by δ has 2δ of the strain energy. Where it has no damping, that is how far the loss factor is off.
-const UNDAMPED_SHARE_RATIO: f64 = 2.0;
-
 /// By how much bends of a smooth curve may be less or more than the usual ones.
 const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 
@@ -209,97 +173,9 @@ const MAX_REST: f64 = 0.05;
 /// The same of a single sensor, whose noise is not given: it cannot contradict itself.
 const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
 
-/// The share of a given size that is each mode's own, and that each of three common parts has: together they are as large as was said.
-const OWN_SHARE_OF_GIVEN_SIZE: f64 = 0.5;
-
 /// Steps along the scale of an unknown, in its logarithm, and by how much −2 ln of the evidence falls with a step that is taken.
 const STEP_ALONG_SCALE: f64 = 0.15;
 const MIN_GAIN_ALONG_SCALE: f64 = 1.0;
-
-/// What is known of the sizes of errors before the data.
-#[derive(Debug, Clone, Copy)]
-struct KnownSizes {
-    given: ErrorSizes,
-    /// What all modes have in common, over what each has of its own.
-    common_ratio: f64,
-    /// The least of what grows with frequency.
-    least_of_mesh: f64,
-    /// The least of what each mode has of its own; it grows with the square of the frequency.
-    least_of_modes: f64,
-    /// The least of the error that all loss factors of the unknown have in common.
-    least_of_unknown_loss: f64,
-}
-
-impl KnownSizes {
-    /// What the user says, whether a coarser mesh shows what the mesh has in common, and whether a curve stands beside other unknowns.
-    fn new(given: ErrorSizes, mesh: Option<&BetweenMeshes>, is_curve_beside_others: bool) -> Self {
-        let common_ratio = match (given.frequency, mesh) {
-            (Some(_), _) => 1.0,
-            (None, Some(_)) => COMMON_RATIO_BESIDE_MESH,
-            (None, None) => COMMON_RATIO,
-        };
-        let is_unknown = given.frequency.is_none() && mesh.is_none();
-        let least = |is_wanted: bool, std: f64| if is_wanted { std } else { 0.0 };
-        Self {
-            given,
-            common_ratio,
-            least_of_mesh: least(is_unknown, LEAST_OF_MESH_STD),
-            least_of_modes: least(is_unknown && is_curve_beside_others, LEAST_OF_MODES_STD),
-            least_of_unknown_loss: least(is_unknown, LEAST_OF_UNKNOWN_LOSS_STD),
-        }
-    }
-
-    /// Where errors are so much smaller than usual.
-    fn smaller(self, part: f64) -> Self {
-        Self {
-            least_of_mesh: part * self.least_of_mesh,
-            least_of_modes: part * self.least_of_modes,
-            least_of_unknown_loss: part * self.least_of_unknown_loss,
-            ..self
-        }
-    }
-}
-
-impl Sizes {
-    /// Before the data.
-    fn prior(known: KnownSizes) -> Self {
-        let KnownSizes { given, .. } = known;
-        let frequency = given.frequency.map_or(FREQUENCY_PRIOR_STD, |size| OWN_SHARE_OF_GIVEN_SIZE * size);
-        let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
-        let calibration = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD);
-        let (mass, bend) = (SENSOR_MASS_PRIOR_STD, [1.0; 2]);
-        Self { frequency, loss_factor, shape, calibration, mass, bend, common: 0.0, common_loss: 0.0 }
-            .with_common(known)
-    }
-
-    /// With the sizes that belong to the errors of natural frequencies.
-    fn with_common(self, known: KnownSizes) -> Self {
-        let common = (known.common_ratio * self.frequency).min(MAX_COMMON_STD.max(self.frequency));
-        let of_own = COMMON_LOSS_RATIO * self.loss_factor;
-        Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
-    }
-
-    /// For what θ is then: errors of one shape at several sensors and at the load are no independent ones, and as a prior count as so many.
-    fn with_dependent_shapes(self, sensors: usize) -> Self {
-        let dependent = ((1 + sensors) as f64 / INDEPENDENT_ERRORS_OF_A_SHAPE).max(1.0);
-        Self { shape: dependent.sqrt() * self.shape, ..self }
-    }
-
-    /// The same where errors of other kinds are searched too. Own errors of damping that are new have the size that is usual.
-    fn with_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
-        let is_new = kinds.damping == Damping::Own && self.loss_factor == 0.0;
-        let loss_factor = if is_new { MODAL_LOSS_FACTOR_PRIOR_STD } else { self.loss_factor };
-        Self { loss_factor, ..self }.of_kinds(kinds, known)
-    }
-
-    /// Without damping errors of single modes where those are not searched.
-    fn of_kinds(self, kinds: Kinds, known: KnownSizes) -> Self {
-        match kinds.damping {
-            Damping::Own => self,
-            _ => Self { loss_factor: 0.0, ..self }.with_common(known),
-        }
-    }
-}
 
 /// A fit at a level of the noise.
 struct Explained {
@@ -605,35 +481,6 @@ pub(super) fn estimate_with_laws(
     }
     let estimated = data.posterior(&fitting, found, before.evidence)?;
     Some(Estimated { modes: search.modes.clone(), ..estimated })
-}
-
-/// Prior standard deviations of the errors of factors: what the model says, or what is usual. The stiffness matrix of an unknown has an error too.
-/// The data cannot separate it from the unknown, which is therefore as uncertain. Where natural frequencies are good to s, a stiffness with the share p of the
-/// strain energy is good to 2s/p.
-fn priors(at: &ModelAt<'_>, sizes: ErrorSizes, share_of_unknowns: f64) -> Vec<FactorPrior> {
-    let of_unknown = 2.0 * FREQUENCY_PRIOR_STD / share_of_unknowns;
-    let of_unknown = of_unknown.clamp(FACTOR_PRIOR_STD, MAX_FACTOR_PRIOR_STD);
-    let of_term = |term: usize| {
-        let is_known = !at.is_unknown(term);
-        let (given, one) = (at.model.factor_std(term), &at.model.terms()[term]);
-        let factor = one.factor.at(at.frequency_hz).unwrap_or_default();
-        let loss_factor = if factor.re == 0.0 { 0.0 } else { factor.im / factor.re };
-        let prior = |part, std: Option<f64>, usual| FactorPrior {
-            term,
-            part,
-            std: std.unwrap_or(usual),
-            is_given: std.is_some(),
-            is_known,
-        };
-        let usual = if is_known { FACTOR_PRIOR_STD } else { of_unknown };
-        let storage = prior(FactorPart::Storage, given.storage, usual);
-        let usual = LOSS_FACTOR_PRIOR_STD.hypot(LOSS_FACTOR_PRIOR_RATIO * loss_factor);
-        let loss = prior(FactorPart::LossFactor, given.loss_factor, usual);
-        let is_stiffness = one.role == Role::Stiffness;
-        let has_error = is_known || (is_stiffness && sizes.frequency.is_none());
-        has_error.then_some(storage).into_iter().chain((is_known && is_stiffness).then_some(loss))
-    };
-    (0..at.model.terms().len()).flat_map(of_term).collect()
 }
 
 /// What all fits of a band have in common.

@@ -8,8 +8,8 @@
 //! # Limits
 //! What all modes have in common is no part of it (`common_loss`). A right model has no such errors: a support that damps and does not give is not seen.
 
-use super::search::Fitting;
-use super::{Sizes, UNDAMPED_SHARE_RATIO};
+use super::fitting::Fitting;
+use super::sizes::{Sizes, UNDAMPED_SHARE_RATIO};
 
 /// η_s: rubber has more, a clamp of steel less.
 const LOSS_FACTOR_OF_MISSING_STIFFNESS: f64 = 0.3;

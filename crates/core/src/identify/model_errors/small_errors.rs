@@ -6,7 +6,9 @@
 //! # Source
 //! J. A. Hoeting, D. Madigan, A. E. Raftery, C. T. Volinsky, Stat. Sci. 14 (1999) 382–417 (averaging over models).
 
-use super::search::{FactorPrior, Fitting, NEGLIGIBLE_STD, Normal, Place, Sizes};
+use super::factor_prior::FactorPrior;
+use super::fitting::{Fitting, NEGLIGIBLE_STD, Normal, Place};
+use super::sizes::Sizes;
 use super::{Explained, Measured};
 use frfit_linalg::dense::Cholesky;
 

@@ -5,7 +5,7 @@
 //! $$ \sum_{k,m} \frac{|u_m - x_m|^2}{|u_m|^2 + |x_m|^2} $$
 //! so that a few resonances at wrong places do not hide that everything between them is right.
 
-use super::search::{Fitting, Place};
+use super::fitting::{Fitting, Place};
 use crate::c64;
 use crate::for_each::map;
 use crate::identify::thinned::thinned;

@@ -1,13 +1,14 @@
 //! The least squares of a curve with the errors of the model: min over θ, δ, ν, a of χ² + their priors.
 
 use super::curve::Curves;
+use super::factor_prior::FactorPrior;
 use super::found::{Assumption, ContradictedAssumption};
+use super::kinds::{Damping, Kinds};
 use super::mesh::BetweenMeshes;
-use super::{CALIBRATION_PRIOR_STD, KnownSizes, UNDAMPED_SHARE_RATIO};
+use super::sizes::{CALIBRATION_PRIOR_STD, KnownSizes, Sizes, UNDAMPED_SHARE_RATIO};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
-use crate::model::FactorPart;
 use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection, UnknownLoss};
 use frfit_linalg::column_block::times_transpose;
 use frfit_linalg::dense::Cholesky;
@@ -50,55 +51,8 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) for_each: ForEach<'t>,
 }
 
-/// Errors that are searched beside those of stiffness, shapes and factors.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Kinds {
-    pub(super) damping: Damping,
-    pub(super) masses: bool,
-}
-
-/// Errors of damping that are searched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Damping {
-    None,
-    /// What all modes have in common.
-    Common,
-    /// Of each mode too.
-    Own,
-}
-
-impl Kinds {
-    pub(super) const STIFFNESS: Self = Self { damping: Damping::None, masses: false };
-    pub(super) const MASSES: Self = Self { masses: true, ..Self::STIFFNESS };
-    pub(super) const ALL: Self = Self { damping: Damping::Own, masses: true };
-
-    pub(super) fn with_masses(self) -> Self {
-        Self { masses: true, ..self }
-    }
-
-    pub(super) fn with_common_damping(self) -> Self {
-        Self { damping: Damping::Common, ..self }
-    }
-
-    pub(super) fn with_own_damping(self) -> Self {
-        Self { damping: Damping::Own, ..self }
-    }
-}
-
 /// The standard deviation of an error that is not searched: practically zero.
 pub(super) const NEGLIGIBLE_STD: f64 = 1e-7;
-
-/// What is known of the error of a known factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FactorPrior {
-    pub(super) term: usize,
-    pub(super) part: FactorPart,
-    pub(super) std: f64,
-    /// Whether the model says so, and it is no default.
-    pub(super) is_given: bool,
-    /// Whether the term has no unknown.
-    pub(super) is_known: bool,
-}
 
 /// Parts that the δ_i have in common: of the first group a scale of all stiffness; of each group what grows with ω_i and with its square, as the errors of meshes do, in
 /// proportion to the strain energy there; of the first group what falls with 1/ω_i², as the errors of supports do. Then four of the ε_i of each group: the same for all modes, with 1/ω_i², and with
@@ -116,26 +70,6 @@ fn is_frequency_part(part: usize) -> bool {
 
 /// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
 const RIGID_BODY_STD: f64 = 0.05;
-
-/// Sizes of the errors: standard deviations.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sizes {
-    /// Of δ_i, each its own.
-    pub(super) frequency: f64,
-    /// Of ε_i.
-    pub(super) loss_factor: f64,
-    /// Of what all δ_i have in common, and of what all ε_i have.
-    pub(super) common: f64,
-    pub(super) common_loss: f64,
-    /// Of a_mi.
-    pub(super) shape: f64,
-    /// Of g_m.
-    pub(super) calibration: f64,
-    /// Of κ_m, over the apparent mass there.
-    pub(super) mass: f64,
-    /// Of bends of ln|E| and of the phase, over the usual ones.
-    pub(super) bend: [f64; 2],
-}
 
 /// Where a search is: θ, the common parts of δ and ε, the amplitude of the mesh's error where there are two meshes, own parts of δ and ε, ν and Δη, κ, g of the
 /// force and of each sensor, then a of the load and of each sensor.
