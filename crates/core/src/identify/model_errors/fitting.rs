@@ -4,19 +4,17 @@ use super::curve::Curves;
 use super::factor_prior::FactorPrior;
 use super::found::{Assumption, ContradictedAssumption};
 use super::kinds::{Damping, Kinds};
+use super::measured::PointAt;
 use super::mesh::BetweenMeshes;
 use super::sizes::{CALIBRATION_PRIOR_STD, KnownSizes, Sizes, UNDAMPED_SHARE_RATIO};
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::identify::options::ErrorSizes;
-use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Point, Projection, UnknownLoss};
+use crate::subspace::{ErrorSlopes, FactorError, ModalErrors, Modes, Projection, UnknownLoss};
 use frfit_linalg::column_block::times_transpose;
 use frfit_linalg::dense::Cholesky;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// The model at a line with these values of its unknowns.
-pub(in crate::identify) type PointAt<'t, 'a> = &'t (dyn Fn(usize, &[c64]) -> Option<Point<'a>> + Sync);
 
 /// What is to be explained, and with what.
 #[derive(Clone, Copy)]
@@ -786,6 +784,11 @@ impl Fitting<'_, '_> {
         }
         Some((Minimum { place: at.place.clone(), normal, prior: of_prior }, at))
     }
+}
+
+/// The line at whose modulus the modes are those of the model.
+pub(super) fn middle(lines: &[usize]) -> usize {
+    lines[lines.len() / 2]
 }
 
 /// Parts in which the lines are summed.

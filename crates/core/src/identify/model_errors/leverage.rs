@@ -1,9 +1,11 @@
 //! How far an error of a known factor, or of the mesh, moves the unknowns.
 
+use super::band_search::{ROUGH_NEIGHBOURHOOD_TOL, Search};
 use super::factor_prior::FactorPrior;
 use super::fitting::Fitting;
+use super::found::{Leverage, LeverageOf};
+use super::measured::USUAL_NOISE;
 use super::sizes::Sizes;
-use super::{Leverage, LeverageOf, ROUGH_NEIGHBOURHOOD_TOL, Search, USUAL_NOISE};
 use crate::c64;
 use crate::for_each::map;
 use crate::median::median;

@@ -5,8 +5,7 @@
 //! natural frequencies show it. That of the loss factor is in none: errors δ_i of natural frequencies keep their damping.
 
 use super::curve::Curves;
-use super::fitting::Fitting;
-use super::middle;
+use super::fitting::{Fitting, middle};
 use crate::c64;
 use crate::material::loss_factor;
 use crate::model::Role;

@@ -2,7 +2,7 @@
 //!
 //! A mode that is off by many half-widths has no slope towards its place. A rational fit of the responses shows that place whatever the model is.
 
-use super::Search;
+use super::band_search::Search;
 use super::fitting::{Fitting, Place};
 use super::tuned::MAX_SHARE;
 use crate::identify::shown_modes::ShownModes;

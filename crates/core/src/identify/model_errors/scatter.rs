@@ -1,6 +1,8 @@
 //! The evidence of a right model whose unknowns scatter from line to line about smooth curves.
 
-use super::{Explained, MIN_NOISE_OVER_RESPONSE, Measured, Search};
+use super::band_search::Search;
+use super::fit::Explained;
+use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured};
 use crate::c64;
 use frfit_linalg::dense::Cholesky;
 

@@ -7,9 +7,10 @@
 //! J. A. Hoeting, D. Madigan, A. E. Raftery, C. T. Volinsky, Stat. Sci. 14 (1999) 382–417 (averaging over models).
 
 use super::factor_prior::FactorPrior;
+use super::fit::Explained;
 use super::fitting::{Fitting, NEGLIGIBLE_STD, Normal, Place};
+use super::measured::Measured;
 use super::sizes::Sizes;
-use super::{Explained, Measured};
 use frfit_linalg::dense::Cholesky;
 
 /// Of the sizes before the data, at which usual errors are tried, and smaller ones.

@@ -1,6 +1,6 @@
 //! What adds up to an error bar: noise, errors of the model, factors that are taken for known.
 
-use super::Estimated;
+use super::estimated::Estimated;
 use frfit_linalg::dense::Cholesky;
 
 /// The covariance of some coordinates of a search, and which of them are errors.

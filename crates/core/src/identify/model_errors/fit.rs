@@ -1,0 +1,276 @@
+//! Fits: the least squares at levels of the noise, and the sizes of largest evidence.
+
+use super::curve::Curves;
+use super::fitting::{Fitting, Linearised, Minimum, Place};
+use super::kinds::{Damping, Kinds};
+use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance};
+use super::sizes::{
+    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, MODAL_LOSS_FACTOR_PRIOR_STD, SENSOR_MASS_PRIOR_STD,
+    SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
+};
+use crate::identify::thinned::thinned;
+use frfit_linalg::dense::Cholesky;
+
+/// A fit at a level of the noise.
+pub(super) struct Explained {
+    pub(super) found: Minimum,
+    pub(super) sizes: Sizes,
+    pub(super) kinds: Kinds,
+    pub(super) level: f64,
+    /// What the response has beside noise and errors, relative to itself.
+    pub(super) rest: f64,
+    /// −2 ln of the evidence, up to what all explanations share.
+    pub(super) evidence: f64,
+}
+
+/// A fit from a place.
+pub(super) type Fit<'f> = &'f dyn Fn(&Fitting<'_, '_>, Place) -> Option<Explained>;
+
+/// Noise that is added to begin with, relative to the response.
+pub(super) const ADDED_NOISE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
+
+/// Levels of added noise until all lines are used.
+pub(super) const FIRST_LEVELS: usize = 4;
+
+/// Lines on which a search begins.
+pub(super) const FIRST_LINES: usize = 60;
+
+/// Stages in which a band is gone through upwards, noise that is added at each, and steps.
+const MAX_STAGES: usize = 8;
+const ADDED_STAGE_NOISE: [f64; 2] = [1.0, 0.2];
+const STAGE_STEPS: usize = 3;
+
+/// Steps at each level of the noise, and at the last.
+const STEPS_PER_LEVEL: usize = 5;
+pub(super) const STEPS_AT_LAST_LEVEL: usize = 5;
+
+/// Rounds at most in which sizes and errors are estimated in turn. They end earlier where −2 ln of the evidence changes by less than this from one to the next.
+const MAX_SIZE_ROUNDS: usize = 8;
+const EVIDENCE_TOL: f64 = 0.2;
+
+/// By how much bends of a smooth curve may be less or more than the usual ones.
+const BEND_RANGE: [f64; 2] = [0.01, 3.0];
+
+/// A size is estimated from the data from this many modes on.
+const PRIOR_MODES: f64 = 0.05;
+
+/// The same of what all modes have in common.
+const PRIOR_COMMON: f64 = 0.5;
+
+/// The same of calibrations, that of the force and as a rule few sensors, and of masses at these.
+const PRIOR_CALIBRATIONS: f64 = 1.0;
+
+/// The same as [`MIN_NOISE_OVER_RESPONSE`] of a single sensor, whose noise is not given: it cannot contradict itself.
+const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
+
+/// A right model is one only where it explains a band by so many nats better: before the data errors are a hundred times as likely as none, and where
+/// the data cannot decide, they are in the bars.
+pub(super) const RIGHT_MODEL_NATS: f64 = 5.0;
+
+impl Measured<'_, '_> {
+    /// From a start to where all lines are used: the cost and the place.
+    pub(super) fn approach(&self, coarse: &Fitting<'_, '_>, place: Place) -> Option<(f64, Place)> {
+        let precision = coarse.precision(&Sizes::prior(coarse.known));
+        let own = if self.known() { 1.0 } else { 0.0 };
+        let (mut at, mut end) = (coarse.linearised(place)?, None);
+        for added in &ADDED_NOISE[..FIRST_LEVELS] {
+            let sigma = self.sigma_at(coarse.lines, own, *added);
+            let (found, near) = coarse.descend(at, &sigma, &precision, STEPS_PER_LEVEL)?;
+            at = near;
+            end = Some((found.normal.chi_squared + found.prior, found.place));
+        }
+        end
+    }
+
+    /// From a start to where lines are used from the lowest on, mode after mode: where a mode is off by many half-widths it has no slope towards
+    /// its place, and the modes below it say where that is.
+    pub(super) fn upwards(&self, whole: &Fitting<'_, '_>, start: &[f64]) -> Option<Place> {
+        let precision = whole.precision(&Sizes::prior(whole.known));
+        let own = if self.known() { 1.0 } else { 0.0 };
+        let mut place = whole.start(start);
+        for below in whole.stages(MAX_STAGES) {
+            let lines: Vec<usize> = thinned(below, FIRST_LINES).copied().collect();
+            let stage = Fitting { lines: &lines, ..*whole };
+            let mut at = stage.linearised(place)?;
+            for added in ADDED_STAGE_NOISE {
+                let sigma = self.sigma_at(&lines, own, added);
+                at = stage.descend(at, &sigma, &precision, STAGE_STEPS)?.1;
+            }
+            place = at.place;
+        }
+        Some(place)
+    }
+
+    /// The least squares with the noise approached from above, and the sizes of largest evidence.
+    pub(super) fn explain(
+        &self,
+        fitting: &Fitting<'_, '_>,
+        place: Place,
+        from_above: &[f64],
+    ) -> Option<Explained> {
+        let known = self.known();
+        let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
+        let numbers = self.numbers(fitting.lines) as f64;
+        let (mut at, mut level) = (fitting.linearised(place)?, 1.0);
+        for &added in from_above {
+            let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
+            let (found, near) = fitting.descend(at, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
+            at = near;
+            if !known {
+                level = added;
+                // The noise itself is larger than what would come next.
+                if found.normal.chi_squared > numbers {
+                    break;
+                }
+            }
+        }
+        self.settled(fitting, at, sizes, level)
+    }
+
+    /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
+    pub(super) fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
+        let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
+        let sigma = fitting.lines.iter().map(|&line| &self.sigma[line]);
+        let at = fitting.linearised(place)?;
+        let left = chi_squared(&at.squares(), sigma) / self.numbers(fitting.lines) as f64;
+        let level = if self.known() { 1.0 } else { left.sqrt().max(MIN_NOISE_OVER_RESPONSE) };
+        self.settled(fitting, at, sizes, level)
+    }
+
+    /// The least squares near a place, with the noise and the sizes of largest evidence: those to begin with are nearly right.
+    pub(super) fn settled(
+        &self,
+        fitting: &Fitting<'_, '_>,
+        mut at: Linearised,
+        mut sizes: Sizes,
+        mut level: f64,
+    ) -> Option<Explained> {
+        let known = self.known();
+        let numbers = self.numbers(fitting.lines) as f64;
+        let mut rest = 0.0;
+        let mut last = None;
+        for _ in 0..MAX_SIZE_ROUNDS {
+            let sigma = self.sigma_beside(fitting.lines, level, rest);
+            let precision = fitting.precision(&sizes);
+            let found;
+            (found, at) = fitting.descend(at, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
+            let (n, place) = (fitting.count(), &at.place);
+            let whole = found.normal.with_prior(&precision);
+            let factor = Cholesky::new(n, &whole).ok()?;
+            let inverse = factor.inverse();
+            let variance = |i: usize| inverse[i * n + i];
+            let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
+            let of_prior = Cholesky::new(n, &precision).ok()?.log_determinant();
+            let evidence =
+                logs + found.normal.chi_squared + found.prior + factor.log_determinant() - of_prior;
+            let determined: f64 =
+                (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
+            let chi_squared = found.normal.chi_squared;
+            let before = (level, sizes, rest);
+            if known && !fitting.shapes().is_empty() {
+                rest = self.rest(fitting.lines, &at.squares(), (numbers - determined).max(1.0));
+            }
+            let same = last
+                .as_ref()
+                .is_some_and(|last: &Explained| (last.evidence - evidence).abs() <= EVIDENCE_TOL);
+            last = Some(Explained { found, sizes, kinds: fitting.kinds, level, rest: before.2, evidence });
+            if same {
+                break;
+            }
+            if !known {
+                level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
+                    .max(MIN_NOISE_OVER_RESPONSE);
+            }
+            for part in 0..2 {
+                let (bends, count) = fitting.curves.bends(part);
+                let m = fitting.curves.count();
+                let sum = |of: &dyn Fn(usize, usize) -> f64| -> f64 {
+                    (0..m * m).map(|k| bends[k] * of(k / m, k % m)).sum()
+                };
+                let squares = sum(&|i, j| place[i] * place[j]);
+                let undetermined = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
+                let determined = (count as f64 - undetermined).clamp(0.0, count as f64);
+                let [least, most] = BEND_RANGE;
+                sizes.bend[part] =
+                    ((squares + PRIOR_MODES) / (determined + PRIOR_MODES)).sqrt().clamp(least, most);
+            }
+            if !fitting.shapes().is_empty() {
+                // The size that some errors show; what was known of it counts as so many errors.
+                let fresh = |of: Vec<usize>, size: f64, (prior, count): (f64, f64)| {
+                    let squares: f64 = of.iter().map(|&i| (place[i] / fitting.growth(i)).powi(2)).sum();
+                    let share = |i: usize| variance(i) / (size * fitting.growth(i)).powi(2);
+                    let determined: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
+                    ((squares + count * prior * prior) / (determined + count)).sqrt()
+                };
+                if self.given_sizes.frequency.is_none() {
+                    let own = fitting.elastic(true).collect();
+                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
+                }
+                if fitting.kinds.damping == Damping::Own {
+                    let own = fitting.elastic(false).collect();
+                    sizes.loss_factor =
+                        fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
+                }
+                if self.given_sizes.shape.is_none() {
+                    sizes.shape =
+                        fresh(fitting.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
+                }
+                if self.given_sizes.calibration.is_none() {
+                    let gains = fitting.gains().collect();
+                    let prior = (CALIBRATION_PRIOR_STD, PRIOR_CALIBRATIONS);
+                    sizes.calibration = fresh(gains, sizes.calibration, prior);
+                }
+                if fitting.kinds.masses {
+                    // A light structure carries a large one: a narrow prior would make other errors and the unknown take a part of it.
+                    let masses = fitting.masses().collect();
+                    sizes.mass = fresh(masses, sizes.mass, (SENSOR_MASS_PRIOR_STD, PRIOR_CALIBRATIONS));
+                }
+                sizes = sizes.with_common(fitting.known);
+                if self.given_sizes.frequency.is_none() {
+                    // No frequency shows a common error, but its trend over the band does.
+                    let common = fitting.in_common(true).collect();
+                    let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
+                    sizes.common = sizes.common.max(shown);
+                    // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.
+                    sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * shown);
+                }
+            }
+            let settled = |a: f64, b: f64| (a - b).abs() <= 0.03 * b;
+            if settled(level, before.0)
+                && (rest - before.2).abs() <= 0.03 * rest
+                && settled(sizes.frequency, before.1.frequency)
+                && settled(sizes.loss_factor, before.1.loss_factor)
+                && settled(sizes.shape, before.1.shape)
+                && (0..2).all(|part| (sizes.bend[part] / before.1.bend[part] - 1.0).abs() < 0.2)
+            {
+                break;
+            }
+        }
+        last
+    }
+
+    /// Whether the residual is noise: of the given size, or of the usual size.
+    pub(super) fn is_explained(&self, wrong: &Explained, lines: &[usize], usual_noise: f64) -> bool {
+        let n = self.numbers(lines) as f64;
+        match self.known() {
+            true => wrong.rest == 0.0 && is_chance(wrong.found.normal.chi_squared, n),
+            false => wrong.level <= usual_noise,
+        }
+    }
+
+    /// Whether noise is all that a smooth modulus leaves.
+    pub(super) fn is_noise(&self, right: &Explained, numbers: usize, curves: &Curves) -> bool {
+        let n = numbers as f64;
+        match self.known() {
+            true => is_chance(right.found.normal.chi_squared, n),
+            false => {
+                let contradicted = self.counted_sensors().count() > 1 || curves.smooth().is_empty();
+                let least = if contradicted { MIN_NOISE_OVER_RESPONSE } else { MIN_NOISE_OF_ONE_SENSOR };
+                let usual = self.level_per_frequency.map_or(0.0, |level_per_frequency| {
+                    level_per_frequency * (1.0 + NOISE_CHI_SQUARED_STD / n.sqrt())
+                });
+                right.level <= least.max(usual)
+            }
+        }
+    }
+}
