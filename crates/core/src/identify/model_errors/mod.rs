@@ -21,6 +21,7 @@ mod averaged;
 mod band_search;
 mod causality;
 mod curve;
+mod error_search;
 mod estimated;
 mod explanation;
 mod factor_prior;

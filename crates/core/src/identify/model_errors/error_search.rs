@@ -1,0 +1,184 @@
+//! The search for errors with which the model explains a band.
+
+use super::band_search::Search;
+use super::fit::{ADDED_NOISE, Explained, FIRST_LEVELS, Fit, RIGHT_MODEL_NATS};
+use super::fitting::{Fitting, Place};
+use super::kinds::Kinds;
+use super::measured::{SAME_START, distance};
+use crate::subspace::{Modes, Projection};
+
+/// The first level of added noise where coordinates were tried one by one: more would let go what was found.
+const TUNED_LEVELS: usize = 2;
+
+/// The first level of added noise where only errors of damping and masses are to be found.
+const LAST_LEVELS: usize = 5;
+
+/// Starts with more mismatch over the least of all are far from the answer.
+const MAX_MISMATCH_OVER_LEAST: f64 = 1.2;
+
+/// A search from several starts.
+pub(super) struct ErrorSearch<'f, 't, 'a> {
+    search: &'f Search<'t, 'a>,
+    starts: &'f [Vec<f64>],
+    /// All lines that are used, on a model that is good near the starts.
+    whole: Fitting<'f, 'a>,
+    /// Some of them.
+    coarse: Fitting<'f, 'a>,
+    /// The most that noise leaves where it is not given.
+    usual_noise: f64,
+}
+
+impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
+    /// With a model that is good near the starts, and its modes.
+    pub(super) fn new(
+        search: &'f Search<'t, 'a>,
+        starts: &'f [Vec<f64>],
+        (model, modes): &'f (Projection, Modes),
+    ) -> Self {
+        Self {
+            search,
+            starts,
+            whole: search.fitting(model, modes, &search.lines),
+            coarse: Fitting { free_nodes: false, ..search.fitting(model, modes, &search.some) },
+            usual_noise: search.data.usual_noise(),
+        }
+    }
+
+    /// The errors of stiffness that explain the band best, or of stiffness and masses. `None` where nothing can be compared.
+    pub(super) fn of_stiffness(&self) -> Option<Explained> {
+        // Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
+        let mut wrong = self.fitted(self.at_starts(), Kinds::STIFFNESS)?;
+        let others: [fn(&Self) -> Option<Explained>; 3] = [Self::paired, Self::with_masses, Self::upwards];
+        for other in others {
+            if !self.is_found(&wrong) {
+                wrong = better(wrong, other(self));
+            }
+        }
+        self.tuned(wrong)
+    }
+
+    /// From where modes have the places of those of the measurement.
+    fn paired(&self) -> Option<Explained> {
+        let Search { data, curves, .. } = *self.search;
+        let used = |line: usize, sensor: usize| self.is_used(line, sensor);
+        let place = self.search.paired(&self.whole, &curves.straight(&self.starts[0]), &used)?;
+        let settled: Fit<'_> = &|fitting, place| data.settled_near(fitting, place);
+        self.search.near(place, Kinds::STIFFNESS, settled)
+    }
+
+    /// With masses at the sensors.
+    fn with_masses(&self) -> Option<Explained> {
+        self.fitted(self.at_starts(), Kinds::MASSES)
+    }
+
+    /// From where each start leads with lines that are used from the lowest on.
+    fn upwards(&self) -> Option<Explained> {
+        let stiffness = Fitting { kinds: Kinds::STIFFNESS, free_nodes: false, ..self.whole };
+        let upwards = |start: &Vec<f64>| self.search.data.upwards(&stiffness, start);
+        self.fitted(self.starts.iter().filter_map(upwards).collect(), Kinds::STIFFNESS)
+    }
+
+    /// From where smooth unknowns leave least mismatch, all over their range, with natural frequencies that are tried one by one there. The same where the errors are found.
+    fn tuned(&self, mut wrong: Explained) -> Option<Explained> {
+        if self.is_found(&wrong) {
+            return Some(wrong);
+        }
+        let whole = &self.whole;
+        let used = |line: usize, sensor: usize| self.is_used(line, sensor);
+        let scaled = |start: &Vec<f64>| whole.scaled(whole.start(&self.search.curves.straight(start)), &used);
+        let mut scaled: Vec<(f64, Place)> = self.starts.iter().filter_map(scaled).collect();
+        scaled.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let most = scaled.first().map_or(0.0, |(least, _)| MAX_MISMATCH_OVER_LEAST * least);
+        scaled.dedup_by(|a, b| distance(&a.1, &b.1) <= SAME_START);
+        for (_, mut place) in scaled.into_iter().filter(|(mismatch, _)| *mismatch <= most) {
+            while !self.is_found(&wrong) {
+                let there = whole.tuned(place, &used)?;
+                let tuned = self.explained(there, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
+                if tuned.evidence > wrong.evidence - 2.0 * RIGHT_MODEL_NATS {
+                    break;
+                }
+                place = tuned.found.place.clone();
+                wrong = tuned;
+            }
+        }
+        Some(wrong)
+    }
+
+    /// With errors of masses and damping, each kind unless it is worse, and −2 ln of the evidence of the kinds that explain the band best. The model is good near the
+    /// errors.
+    pub(super) fn with_further_kinds(
+        &self,
+        (model, modes): &(Projection, Modes),
+        mut wrong: Explained,
+    ) -> (Explained, f64) {
+        // Errors that the data do not determine stay in the bars: masses and common damping are left out only where they are clearly worse.
+        // Damping of single modes can stand in for a loss factor that varies with frequency, so it has to explain the band better.
+        type With = fn(Kinds) -> Kinds;
+        let further: [(With, f64); 3] = [
+            (Kinds::with_masses, RIGHT_MODEL_NATS),
+            (Kinds::with_common_damping, RIGHT_MODEL_NATS),
+            (Kinds::with_own_damping, 0.0),
+        ];
+        let data = self.search.data;
+        let fine = self.search.fitting(model, modes, &self.search.lines);
+        // Whether there are errors is asked of the kinds that explain the band best.
+        let mut best = wrong.evidence;
+        for (with, nats) in further {
+            let kinds = with(wrong.kinds);
+            if kinds != wrong.kinds {
+                let (place, fitting) = (wrong.found.place.clone(), Fitting { kinds, ..fine });
+                // A minimum that explains the band is near. From any other one added noise leads away.
+                let more = if self.is_explained(&wrong) {
+                    let sizes = wrong.sizes.with_kinds(kinds, fine.known);
+                    fitting.linearised(place).and_then(|at| data.settled(&fitting, at, sizes, wrong.level))
+                } else {
+                    data.explain(&fitting, place, &ADDED_NOISE[LAST_LEVELS..])
+                };
+                best = more.as_ref().map_or(best, |more| best.min(more.evidence));
+                wrong = more.filter(|more| more.evidence < wrong.evidence + 2.0 * nats).unwrap_or(wrong);
+            }
+        }
+        (wrong, best)
+    }
+
+    /// Whether the residual is noise.
+    pub(super) fn is_explained(&self, wrong: &Explained) -> bool {
+        self.search.data.is_explained(wrong, &self.search.lines, self.usual_noise)
+    }
+
+    /// The same with small errors. Large ones may explain a band as well: those of modes at each other's places.
+    fn is_found(&self, wrong: &Explained) -> bool {
+        self.is_explained(wrong) && self.whole.are_small(&wrong.found.place, self.search.data.given_sizes)
+    }
+
+    /// Whether a sensor is not left out at a line.
+    fn is_used(&self, line: usize, sensor: usize) -> bool {
+        self.search.data.sigma[line][sensor].is_finite()
+    }
+
+    fn at_starts(&self) -> Vec<Place> {
+        self.starts.iter().map(|start| self.coarse.start(start)).collect()
+    }
+
+    /// From the best of some places, with some lines at first.
+    fn fitted(&self, places: Vec<Place>, kinds: Kinds) -> Option<Explained> {
+        let coarse = Fitting { kinds, ..self.coarse };
+        let ends = places.into_iter().filter_map(|place| self.search.data.approach(&coarse, place));
+        let (_, place) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        self.explained(place, kinds, &ADDED_NOISE[FIRST_LEVELS..])
+    }
+
+    /// From a place, with all lines and these levels of added noise, on a model that is good there.
+    fn explained(&self, place: Place, kinds: Kinds, from_above: &[f64]) -> Option<Explained> {
+        let data = self.search.data;
+        self.search.near(place, kinds, &|fitting, place| data.explain(fitting, place, from_above))
+    }
+}
+
+/// The fit of larger evidence.
+fn better(a: Explained, b: Option<Explained>) -> Explained {
+    match b {
+        Some(b) if b.evidence < a.evidence => b,
+        _ => a,
+    }
+}
