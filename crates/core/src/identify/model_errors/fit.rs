@@ -2,12 +2,9 @@
 
 use super::curve::Curves;
 use super::fitting::{Fitting, Linearised, Minimum, Place};
-use super::kinds::{Damping, Kinds};
+use super::kinds::Kinds;
 use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance};
-use super::sizes::{
-    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, MODAL_LOSS_FACTOR_PRIOR_STD, SENSOR_MASS_PRIOR_STD,
-    SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
-};
+use super::sizes::Sizes;
 use crate::identify::thinned::thinned;
 use frfit_linalg::dense::Cholesky;
 
@@ -47,18 +44,6 @@ pub(super) const STEPS_AT_LAST_LEVEL: usize = 5;
 /// Rounds at most in which sizes and errors are estimated in turn. They end earlier where −2 ln of the evidence changes by less than this from one to the next.
 const MAX_SIZE_ROUNDS: usize = 8;
 const EVIDENCE_TOL: f64 = 0.2;
-
-/// By how much bends of a smooth curve may be less or more than the usual ones.
-const BEND_RANGE: [f64; 2] = [0.01, 3.0];
-
-/// A size is estimated from the data from this many modes on.
-const PRIOR_MODES: f64 = 0.05;
-
-/// The same of what all modes have in common.
-const PRIOR_COMMON: f64 = 0.5;
-
-/// The same of calibrations, that of the force and as a rule few sensors, and of masses at these.
-const PRIOR_CALIBRATIONS: f64 = 1.0;
 
 /// The same as [`MIN_NOISE_OVER_RESPONSE`] of a single sensor, whose noise is not given: it cannot contradict itself.
 const MIN_NOISE_OF_ONE_SENSOR: f64 = 5e-3;
@@ -181,60 +166,7 @@ impl Measured<'_, '_> {
                 level = (level * (chi_squared / (numbers - determined).max(1.0)).sqrt())
                     .max(MIN_NOISE_OVER_RESPONSE);
             }
-            for part in 0..2 {
-                let (bends, count) = fitting.curves.bends(part);
-                let m = fitting.curves.count();
-                let sum = |of: &dyn Fn(usize, usize) -> f64| -> f64 {
-                    (0..m * m).map(|k| bends[k] * of(k / m, k % m)).sum()
-                };
-                let squares = sum(&|i, j| place[i] * place[j]);
-                let undetermined = sum(&|i, j| inverse[i * n + j]) / sizes.bend[part].powi(2);
-                let determined = (count as f64 - undetermined).clamp(0.0, count as f64);
-                let [least, most] = BEND_RANGE;
-                sizes.bend[part] =
-                    ((squares + PRIOR_MODES) / (determined + PRIOR_MODES)).sqrt().clamp(least, most);
-            }
-            if !fitting.shapes().is_empty() {
-                // The size that some errors show; what was known of it counts as so many errors.
-                let fresh = |of: Vec<usize>, size: f64, (prior, count): (f64, f64)| {
-                    let squares: f64 = of.iter().map(|&i| (place[i] / fitting.growth(i)).powi(2)).sum();
-                    let share = |i: usize| variance(i) / (size * fitting.growth(i)).powi(2);
-                    let determined: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
-                    ((squares + count * prior * prior) / (determined + count)).sqrt()
-                };
-                if self.given_sizes.frequency.is_none() {
-                    let own = fitting.elastic(true).collect();
-                    sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
-                }
-                if fitting.kinds.damping == Damping::Own {
-                    let own = fitting.elastic(false).collect();
-                    sizes.loss_factor =
-                        fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
-                }
-                if self.given_sizes.shape.is_none() {
-                    sizes.shape =
-                        fresh(fitting.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
-                }
-                if self.given_sizes.calibration.is_none() {
-                    let gains = fitting.gains().collect();
-                    let prior = (CALIBRATION_PRIOR_STD, PRIOR_CALIBRATIONS);
-                    sizes.calibration = fresh(gains, sizes.calibration, prior);
-                }
-                if fitting.kinds.masses {
-                    // A light structure carries a large one: a narrow prior would make other errors and the unknown take a part of it.
-                    let masses = fitting.masses().collect();
-                    sizes.mass = fresh(masses, sizes.mass, (SENSOR_MASS_PRIOR_STD, PRIOR_CALIBRATIONS));
-                }
-                sizes = sizes.with_common(fitting.known);
-                if self.given_sizes.frequency.is_none() {
-                    // No frequency shows a common error, but its trend over the band does.
-                    let common = fitting.in_common(true).collect();
-                    let shown = fresh(common, before.1.common, (sizes.common, PRIOR_COMMON));
-                    sizes.common = sizes.common.max(shown);
-                    // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.
-                    sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * shown);
-                }
-            }
+            sizes = fitting.shown_sizes(sizes, place, &inverse);
             let settled = |a: f64, b: f64| (a - b).abs() <= 0.03 * b;
             if settled(level, before.0)
                 && (rest - before.2).abs() <= 0.03 * rest

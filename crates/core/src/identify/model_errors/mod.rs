@@ -39,6 +39,7 @@ mod modal_loss;
 mod paired;
 mod posterior;
 mod scatter;
+mod shown_sizes;
 mod sizes;
 mod small_errors;
 mod split;
