@@ -2,9 +2,10 @@
 
 use super::band_search::{NEIGHBOURHOOD_TOL, Search};
 use super::curve::Curves;
+use super::descent::Minimum;
 use super::estimated::{Estimated, covariance};
 use super::fit::Explained;
-use super::fitting::{Fitting, Minimum};
+use super::fitting::Fitting;
 use super::measured::Measured;
 use super::small_errors::About;
 use crate::for_each::ForEach;

@@ -1,8 +1,10 @@
 //! Fits: the least squares at levels of the noise, and the sizes of largest evidence.
 
 use super::curve::Curves;
-use super::fitting::{Fitting, Linearised, Minimum, Place};
+use super::descent::Minimum;
+use super::fitting::{Fitting, Place};
 use super::kinds::Kinds;
+use super::linearised::Linearised;
 use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance};
 use super::sizes::Sizes;
 use crate::identify::thinned::thinned;

@@ -22,6 +22,9 @@ const INDEPENDENT_ERRORS_OF_A_SHAPE: f64 = 2.0;
 const COMMON_RATIO: f64 = 5.0;
 const COMMON_RATIO_BESIDE_MESH: f64 = 2.5;
 
+/// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
+const COMMON_LOSS_RATIO: f64 = 2.0;
+
 /// A mesh of beams or plates errs by as much at the top of the band, where its modes scatter hardly at all: an unknown that varies with frequency absorbs it.
 const LEAST_OF_MESH_STD: f64 = 0.01;
 
@@ -29,15 +32,12 @@ const LEAST_OF_MESH_STD: f64 = 0.01;
 /// twisting than in bending.
 const LEAST_OF_MODES_STD: f64 = 0.02;
 
-/// A support that gives alike in all modes is taken for a smaller modulus, and its damping for that of the material: where it has two per cent of the strain energy and no
+/// A support that gives alike in all modes is taken for a smaller modulus, and its damping for that of the material. Where it has two per cent of the strain energy and no
 /// damping, the loss factor is found two per cent too small.
 const LEAST_OF_UNKNOWN_LOSS_STD: f64 = 0.02;
 
 /// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
 const MAX_COMMON_STD: f64 = 0.025;
-
-/// The same of loss factors: a support that has another damping than the structure changes all of them in one sense.
-const COMMON_LOSS_RATIO: f64 = 2.0;
 
 /// A stiffness that is not in the model and changes ω by δ has 2δ of the strain energy. Where it has no damping, that is how far the loss factor is off.
 pub(super) const UNDAMPED_SHARE_RATIO: f64 = 2.0;

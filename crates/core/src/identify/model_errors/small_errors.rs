@@ -8,8 +8,10 @@
 
 use super::factor_prior::FactorPrior;
 use super::fit::Explained;
-use super::fitting::{Fitting, NEGLIGIBLE_STD, Normal, Place};
+use super::fitting::{Fitting, Place};
+use super::linearised::Normal;
 use super::measured::Measured;
+use super::prior::NEGLIGIBLE_STD;
 use super::sizes::Sizes;
 use frfit_linalg::dense::Cholesky;
 
