@@ -1,6 +1,7 @@
 //! Unknowns over the band with few numbers: constants, laws, smooth curves.
 
 use super::causality::Causality;
+use super::natural_spline::bends;
 use crate::c64;
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::form::Form;
@@ -92,34 +93,12 @@ impl Spline {
         self.causality.is_none()
     }
 
-    #[cfg(test)]
-    pub(super) fn causality(&self) -> Option<&Causality> {
-        self.causality.as_ref()
-    }
-
     /// ln E at a line.
     fn log(&self, theta: &[f64], line: usize) -> c64 {
         let sum = |part: &[f64]| self.weights[line].iter().zip(part).map(|(w, t)| w * t).sum::<f64>();
         let n = self.knots();
         c64::new(sum(&theta[..n]), if self.is_real() { 0.0 } else { sum(&theta[n..]) })
     }
-}
-
-/// Second derivatives, in units of the knots' distance, of the natural spline that is one at the k-th of n knots.
-fn bends(n: usize, k: usize) -> Vec<f64> {
-    let value = |i: usize| if i == k { 1.0 } else { 0.0 };
-    // M_{i−1} + 4M_i + M_{i+1} = 6(y_{i−1} − 2y_i + y_{i+1}), M = 0 at the ends (Thomas's elimination).
-    let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
-    for i in 1..n - 1 {
-        let rest = 6.0 * (value(i - 1) - 2.0 * value(i) + value(i + 1));
-        let pivot = 4.0 - upper[i - 1];
-        upper[i] = 1.0 / pivot;
-        right[i] = (rest - right[i - 1]) / pivot;
-    }
-    for i in (1..n - 1).rev() {
-        right[i] -= upper[i] * right[i + 1];
-    }
-    right
 }
 
 impl Curve {

@@ -16,7 +16,7 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `causality`, `curve` | unknowns over the band: constants, laws, smooth curves |
+//! | `natural_spline`, `causality`, `curve` | unknowns over the band: constants, laws, smooth curves |
 //! | `mesh`, `found` | what lies between two meshes, and what is reported of errors |
 //! | `kinds`, `sizes`, `factor_prior` | kinds of errors, and what is known of their sizes before the data |
 //! | `measured` | what was measured, and what it says by itself |
@@ -56,6 +56,7 @@ mod local_stiffness;
 mod measured;
 mod mesh;
 mod modal_loss;
+mod natural_spline;
 mod paired;
 mod plausible;
 mod posterior;
