@@ -11,7 +11,7 @@
 //! changes mode i at sensor m by the relative a_mi, the same with F where the force acts; (1 + g_m) and (1 + g_0) multiply all of ℓ_m and of F where a calibration is off;
 //! $$ M \leftarrow M + \sum_m \kappa_m M_m \\, \ell_m \ell_m^T, \qquad M_m^{-1} = \overline{(\ell_m^T y_i)^2} $$
 //! is a mass at sensor m that the model does not have, as that of an accelerometer, over the apparent mass M_m of the modes there;
-//! $$ f_t \leftarrow (1 + \nu_t)(f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
+//! $$ f_t \leftarrow e^{\nu_t} (f_t + i \\, \Delta\eta_t \operatorname{Re} f_t) $$
 //! changes a known factor;
 //! $$ p_j \leftarrow \operatorname{Re} p_j + i(1 + \epsilon) \operatorname{Im} p_j $$
 //! the loss factor of every unknown stiffness. What comes out is a reduced model like any other.

@@ -88,7 +88,7 @@ impl Parts {
             return c64::default();
         }
         match by.part {
-            FactorPart::Storage => theta / (1.0 + by.error),
+            FactorPart::Storage => theta,
             FactorPart::LossFactor => c64::I * (theta / unit(part)).re * unit(part),
         }
     }

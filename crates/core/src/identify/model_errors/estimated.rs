@@ -73,11 +73,9 @@ impl Estimated {
         };
         let of_factors = self.modes.of_error.len();
         let std = |c: usize| covariance(c, c).max(0.0).sqrt();
-        let factor = |(t, &subspace::FactorError { term, part, error })| FactorError {
-            term,
-            part,
-            error,
-            std: std(of_factors + t),
+        let factor = |(t, one): (usize, &subspace::FactorError)| {
+            let [error, slope] = one.relative();
+            FactorError { term: one.term, part: one.part, error, std: slope * std(of_factors + t) }
         };
         let first_mass = of_factors + self.factors.len();
         let mass = |(m, (error, apparent)): (usize, (&f64, &f64))| SensorMass {
