@@ -107,9 +107,27 @@ impl Plate {
     /// # Errors
     /// [`Failure`] as [`Self::identify`].
     pub fn predicted(&self, found: &Found, setting: &Setting) -> Result<Vec<PredictedMode>, Failure> {
+        self.with_storage(found.constants.map(|(storage, _)| storage), found, setting)
+    }
+
+    /// The same with the published moduli in place of those that were found.
+    ///
+    /// # Errors
+    /// [`Failure`] as [`Self::identify`].
+    pub fn of_published(&self, found: &Found, setting: &Setting) -> Result<Vec<PredictedMode>, Failure> {
+        let ratio = |k: usize| self.published[k].0 / found.moduli()[k].0;
+        let ratios = [ratio(0), ratio(1), (ratio(0) * ratio(1)).sqrt(), ratio(2)];
+        self.with_storage(std::array::from_fn(|k| ratios[k] * found.constants[k].0), found, setting)
+    }
+
+    fn with_storage(
+        &self,
+        storage: [f64; 4],
+        found: &Found,
+        setting: &Setting,
+    ) -> Result<Vec<PredictedMode>, Failure> {
         let folder = tempfile::tempdir()?;
-        let nominal =
-            std::array::from_fn(|k| [found.constants[k].0, found.loss_factors[k].max(0.1 * LOSS_FACTOR)]);
+        let nominal = std::array::from_fn(|k| [storage[k], found.loss_factors[k].max(0.1 * LOSS_FACTOR)]);
         let case = self
             .case(&Setting { nominal, sensor_mass: found.sensor_mass, ..setting.clone() }, folder.path())?;
         let job = modes_case(&case, &Overrides::default(), &ModesOptions::default(), None)?;

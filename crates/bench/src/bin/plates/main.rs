@@ -116,17 +116,18 @@ fn study(plate: &Plate, whole: &Setting, starts: u64) -> Result<(), Failure> {
         covered(of_last.covers(&of_first))
     );
     let predicted = plate.predicted(&of_whole, whole)?;
-    let is_compared = |mode: &&PredictedMode| mode.measured_hz < COMPARED_HZ;
-    let compared: Vec<f64> =
-        predicted.iter().filter(is_compared).map(|mode| mode.difference().abs()).collect();
-    let count = compared.len();
-    let middle = median(compared).unwrap_or(f64::NAN);
-    println!(
-        "{} natural frequencies below {COMPARED_HZ} Hz, median difference {:.2} %",
-        count,
-        100.0 * middle
-    );
-    println!("{}", modes(&predicted));
+    let of_published = plate.of_published(&of_whole, whole)?;
+    for (with, modes_with) in [("these constants", &predicted), ("the published moduli", &of_published)] {
+        let is_compared = |mode: &&PredictedMode| mode.measured_hz < COMPARED_HZ;
+        let compared: Vec<f64> =
+            modes_with.iter().filter(is_compared).map(|mode| mode.difference().abs()).collect();
+        println!(
+            "{} natural frequencies below {COMPARED_HZ} Hz, median difference with {with} {:.2} %",
+            compared.len(),
+            100.0 * median(compared).unwrap_or(f64::NAN)
+        );
+        println!("{}", modes(modes_with));
+    }
     let is_above = |mode: &PredictedMode| mode.measured_hz > middle_hz;
     for (name, found, wants_above) in [("lower", &of_lower, true), ("upper", &of_upper, false)] {
         let mut left_out = plate.predicted(found, whole)?;
