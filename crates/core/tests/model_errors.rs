@@ -589,7 +589,7 @@ fn a_law_explains_the_band_on_the_corrected_model_as_in_the_search() {
     for (number, truth) in found.constants[0].numbers.iter().zip([7e10, 0.5]) {
         let std = number.std.unwrap();
         // The trend of the mesh is 3 to 4 %, and the loss factor may be off by twice as much.
-        assert!((number.value - truth).abs() < 2.0 * std && std < 0.08 * truth, "{number:?}");
+        assert!((number.value - truth).abs() < 2.0 * std && std < 0.09 * truth, "{number:?}");
     }
 }
 

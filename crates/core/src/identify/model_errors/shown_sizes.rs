@@ -58,8 +58,8 @@ impl Fitting<'_, '_> {
         }
         sizes = sizes.with_common(self.known);
         if given.frequency.is_none() {
-            // No frequency shows a common error, but its trend over the band does.
-            let common = self.in_common(true).collect();
+            // The band shows how large trends are. It does not show what all natural frequencies are off by alike: a modulus of another size would do the same.
+            let common = self.in_common(true).filter(|&i| Some(i) != self.of_scale()).collect();
             let shown = fresh(common, before.common, (sizes.common, PRIOR_COMMON));
             sizes.common = sizes.common.max(shown);
             // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.

@@ -96,7 +96,9 @@ pub(super) struct Sizes {
     pub(super) frequency: f64,
     /// Of ε_i.
     pub(super) loss_factor: f64,
-    /// Of what all δ_i have in common, and of what all ε_i have.
+    /// Of e, by which all natural frequencies are off alike.
+    pub(super) scale: f64,
+    /// Of what else all δ_i have in common, and of what all ε_i have.
     pub(super) common: f64,
     pub(super) common_loss: f64,
     /// Of a_mi.
@@ -117,7 +119,8 @@ impl Sizes {
         let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
         let calibration = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD);
         let (mass, bend) = (SENSOR_MASS_PRIOR_STD, [1.0; 2]);
-        Self { frequency, loss_factor, shape, calibration, mass, bend, common: 0.0, common_loss: 0.0 }
+        let (scale, common, common_loss) = (0.0, 0.0, 0.0);
+        Self { frequency, loss_factor, scale, common, common_loss, shape, calibration, mass, bend }
             .with_common(known)
     }
 
@@ -125,7 +128,7 @@ impl Sizes {
     pub(super) fn with_common(self, known: KnownSizes) -> Self {
         let common = (known.common_ratio * self.frequency).min(MAX_COMMON_STD.max(self.frequency));
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
-        Self { common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
+        Self { scale: common, common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
     }
 
     /// For what θ is then: errors of one shape at several sensors and at the load are no independent ones, and as a prior count as so many.

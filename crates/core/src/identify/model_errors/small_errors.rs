@@ -175,6 +175,7 @@ impl<'t, 'a> About<'t, 'a> {
         let sizes = Sizes {
             frequency: part * usual.frequency,
             loss_factor: part * usual.loss_factor,
+            scale: part * usual.scale,
             common: part * usual.common,
             common_loss: part * usual.common_loss,
             shape: part * usual.shape,
