@@ -46,15 +46,20 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// The errors of stiffness that explain the band best, or of stiffness and masses. `None` where nothing can be compared.
     pub(super) fn of_stiffness(&self) -> Option<Explained> {
-        // Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
-        let mut wrong = self.fitted(self.at_starts(), Kinds::STIFFNESS)?;
-        let others: [fn(&Self) -> Option<Explained>; 3] = [Self::paired, Self::with_masses, Self::upwards];
-        for other in others {
-            if !self.is_found(&wrong) {
-                wrong = better(wrong, other(self));
+        let each: [fn(&Self) -> Option<Explained>; 4] =
+            [Self::of_starts, Self::paired, Self::with_masses, Self::upwards];
+        let mut wrong = None;
+        for from in each {
+            if !wrong.as_ref().is_some_and(|wrong| self.is_found(wrong)) {
+                wrong = better(wrong, from(self));
             }
         }
-        self.tuned(wrong)
+        Some(self.tuned(wrong?))
+    }
+
+    /// From the starts. Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
+    fn of_starts(&self) -> Option<Explained> {
+        self.fitted(self.at_starts(), Kinds::STIFFNESS)
     }
 
     /// From where modes have the places of those of the measurement.
@@ -79,9 +84,9 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
     }
 
     /// From where smooth unknowns leave least mismatch, all over their range, with natural frequencies that are tried one by one there. The same where the errors are found.
-    fn tuned(&self, mut wrong: Explained) -> Option<Explained> {
+    fn tuned(&self, mut wrong: Explained) -> Explained {
         if self.is_found(&wrong) {
-            return Some(wrong);
+            return wrong;
         }
         let whole = &self.whole;
         let used = |line: usize, sensor: usize| self.is_used(line, sensor);
@@ -92,16 +97,16 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
         scaled.dedup_by(|a, b| distance(&a.1, &b.1) <= SAME_START);
         for (_, mut place) in scaled.into_iter().filter(|(mismatch, _)| *mismatch <= most) {
             while !self.is_found(&wrong) {
-                let there = whole.tuned(place, &used)?;
-                let tuned = self.explained(there, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..])?;
-                if tuned.evidence > wrong.evidence - 2.0 * RIGHT_MODEL_NATS {
-                    break;
-                }
+                let tuned = whole
+                    .tuned(place, &used)
+                    .and_then(|there| self.explained(there, Kinds::STIFFNESS, &ADDED_NOISE[TUNED_LEVELS..]));
+                let is_better = |tuned: &Explained| tuned.evidence <= wrong.evidence - 2.0 * RIGHT_MODEL_NATS;
+                let Some(tuned) = tuned.filter(is_better) else { break };
                 place = tuned.found.place.clone();
                 wrong = tuned;
             }
         }
-        Some(wrong)
+        wrong
     }
 
     /// With errors of masses and damping, each kind unless it is worse, and −2 ln of the evidence of the kinds that explain the band best. The model is good near the
@@ -176,9 +181,6 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 }
 
 /// The fit of larger evidence.
-fn better(a: Explained, b: Option<Explained>) -> Explained {
-    match b {
-        Some(b) if b.evidence < a.evidence => b,
-        _ => a,
-    }
+fn better(a: Option<Explained>, b: Option<Explained>) -> Option<Explained> {
+    a.into_iter().chain(b).min_by(|a, b| a.evidence.total_cmp(&b.evidence))
 }

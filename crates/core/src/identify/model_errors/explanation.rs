@@ -90,7 +90,10 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     if !fine.are_small(&wrong.found.place, data.given_sizes) {
         return Some(Explanation::OtherModel);
     }
-    let estimated = data.posterior(&fine, wrong, evidence)?;
+    // Errors without a covariance are no answer, and a right model is none either.
+    let Some(estimated) = data.posterior(&fine, wrong, evidence) else {
+        return Some(Explanation::OtherModel);
+    };
     Some(Explanation::Errors(Box::new(Estimated { modes: search.modes.clone(), ..estimated })))
 }
 
