@@ -33,7 +33,7 @@ impl Search<'_, '_> {
                 data.settled(fitting, fitting.linearised(errors.found.place)?, errors.sizes, errors.level)
             };
             // Far along it the errors are those of another model, which has to explain the band clearly better.
-            let are_small = |one: &Explained| whole.are_small(&one.found.place, data.given_sizes);
+            let are_small = |one: &Explained| whole.are_small(&one.found.place);
             let gain = if are_small(best) { MIN_GAIN_ALONG_SCALE } else { -2.0 * RIGHT_MODEL_NATS };
             let is_better = |other: &Explained| other.evidence < best.evidence - gain;
             self.near(place, best.kinds, searched).filter(|other| is_better(other) && are_small(other))

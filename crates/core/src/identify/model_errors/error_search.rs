@@ -153,7 +153,7 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// The same with small errors. Large ones may explain a band as well: those of modes at each other's places.
     fn is_found(&self, wrong: &Explained) -> bool {
-        self.is_explained(wrong) && self.whole.are_small(&wrong.found.place, self.search.data.given_sizes)
+        self.is_explained(wrong) && self.whole.are_small(&wrong.found.place)
     }
 
     /// Whether a sensor is not left out at a line.

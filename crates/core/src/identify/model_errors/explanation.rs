@@ -87,7 +87,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return if is_other { Some(Explanation::OtherModel) } else { right_model(search, &right, &given) };
     }
     let fine = Fitting { kinds: wrong.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
-    if !fine.are_small(&wrong.found.place, data.given_sizes) {
+    if !fine.are_small(&wrong.found.place) {
         return Some(Explanation::OtherModel);
     }
     // Errors without a covariance are no answer, and a right model is none either.

@@ -3,7 +3,6 @@
 use super::fitting::Fitting;
 use super::found::{Assumption, ContradictedAssumption};
 use super::sizes::CALIBRATION_PRIOR_STD;
-use crate::identify::options::ErrorSizes;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
 const MAX_FREQUENCY_ERROR: f64 = 0.04;
@@ -23,7 +22,8 @@ const LARGE_DEVIATIONS: f64 = 2.0;
 impl Fitting<'_, '_> {
     /// Whether the errors in the band are small ones of this model, or not much larger than was given, and it is no other. What another size of all unknown
     /// stiffness would do is no error of modes.
-    pub(super) fn are_small(&self, place: &[f64], given: ErrorSizes) -> bool {
+    pub(super) fn are_small(&self, place: &[f64]) -> bool {
+        let given = self.known.given;
         let errors = self.errors(place);
         let is_in_band = |&i: &usize| {
             let omega = self.modes.omega_rad_s[i];
@@ -56,15 +56,12 @@ impl Fitting<'_, '_> {
     /// What is known of calibrations and factors, and what the data say against it; nothing where the two agree.
     ///
     /// What all sensors show too much or too little of is one number, however it is shared between them and the force.
-    pub(super) fn contradicted_assumptions(
-        &self,
-        place: &[f64],
-        given: ErrorSizes,
-    ) -> Vec<ContradictedAssumption> {
+    pub(super) fn contradicted_assumptions(&self, place: &[f64]) -> Vec<ContradictedAssumption> {
         let gains = &place[self.gains()];
         let of_all = gains.split_first().map(|(of_force, of_sensors)| {
             let count = of_sensors.len() as f64;
-            let std = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD) * (1.0 + 1.0 / count).sqrt();
+            let std =
+                self.known.given.calibration.unwrap_or(CALIBRATION_PRIOR_STD) * (1.0 + 1.0 / count).sqrt();
             ContradictedAssumption {
                 what: Assumption::Calibration,
                 error: of_force + of_sensors.iter().sum::<f64>() / count,

@@ -88,7 +88,7 @@ impl Measured<'_, '_> {
             curves: fitting.curves.clone(),
             factors: fitting.factors.to_vec(),
             mesh: fitting.mesh.cloned(),
-            contradicted_assumptions: fitting.contradicted_assumptions(&found.place, self.given_sizes),
+            contradicted_assumptions: fitting.contradicted_assumptions(&found.place),
             bars_over_noise: None,
             mesh_error: fitting.of_mesh().map(|(p, mesh)| MeshError {
                 paired: mesh.partner_rad_s.iter().flatten().count(),
