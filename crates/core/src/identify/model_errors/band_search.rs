@@ -96,6 +96,13 @@ impl<'t, 'a> Search<'t, 'a> {
         self.data.explain(&fitting, start, &ADDED_NOISE[2..])
     }
 
+    /// The same from θ, with factors that are right to begin with.
+    pub(super) fn right_from(&self, model: &Projection, theta: &[f64]) -> Option<Explained> {
+        let given = self.given_factors();
+        let start = theta.iter().copied().chain(given.iter().map(|_| 0.0)).collect();
+        self.right(model, &given, start)
+    }
+
     /// With what lies between this mesh and a coarser one, where there is one. The stiffness of an unknown then has no error of a usual size: the meshes
     /// say how large it is.
     pub(super) fn with_meshes(mut self, theta: &[f64]) -> Self {

@@ -54,8 +54,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let points: Vec<Point<'_>> = starts.iter().flat_map(|start| search.points(start)).collect();
     let rough = search.smaller(&points, ROUGH_NEIGHBOURHOOD_TOL);
     let given = search.given_factors();
-    let start = starts[0].iter().copied().chain(given.iter().map(|_| 0.0)).collect();
-    let right = search.right(&rough.0, &given, start)?;
+    let right = search.right_from(&rough.0, &starts[0])?;
     let sized = data.given_sizes.any() || search.mesh.is_some();
     if !data.may_be_wrong || (!sized && data.is_exact()) {
         return right_model(search, &right, &given);
@@ -90,7 +89,7 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     if !fine.are_small(&wrong.found.place) {
         return Some(Explanation::OtherModel);
     }
-    // Errors without a covariance are no answer, and a right model is none either.
+    // The model is not right, and its errors have no covariance, so that the modulus has no error bars.
     let Some(estimated) = data.posterior(&fine, wrong, evidence) else {
         return Some(Explanation::OtherModel);
     };

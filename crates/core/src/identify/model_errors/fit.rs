@@ -5,7 +5,9 @@ use super::descent::Minimum;
 use super::fitting::{Fitting, Place};
 use super::kinds::Kinds;
 use super::linearised::Linearised;
-use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance};
+use super::measured::{
+    MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance, log_variances,
+};
 use super::sizes::Sizes;
 use crate::identify::thinned::thinned;
 use frfit_linalg::dense::Cholesky;
@@ -146,10 +148,10 @@ impl Measured<'_, '_> {
             let factor = Cholesky::new(n, &whole).ok()?;
             let inverse = factor.inverse();
             let variance = |i: usize| inverse[i * n + i];
-            let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
             let of_prior = Cholesky::new(n, &precision).ok()?.log_determinant();
             let evidence =
-                logs + found.normal.chi_squared + found.prior + factor.log_determinant() - of_prior;
+                log_variances(&sigma) + found.normal.chi_squared + found.prior + factor.log_determinant()
+                    - of_prior;
             let determined: f64 =
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;

@@ -170,6 +170,12 @@ impl Fitting<'_, '_> {
         (0..self.common_parts()).filter(is_wanted).map(move |part| first + part)
     }
 
+    /// The common parts of δ but the scale of all stiffness.
+    pub(super) fn trends(&self) -> impl Iterator<Item = usize> {
+        let scale = self.of_scale();
+        self.in_common(true).filter(move |&i| Some(i) != scale)
+    }
+
     /// The common parts that together are an error of all natural frequencies in proportion to ω², one at the highest of the band.
     pub(super) fn square_trend(&self) -> impl Iterator<Item = usize> {
         let first = self.curves.count() + OF_MESH + 1;

@@ -42,9 +42,7 @@ fn evidence_of_right_model(
     let centre = curves.straight(start);
     let search = Search::new(model, data, (curves, &centre), start, for_each)?;
     let (near, _) = search.smaller(&search.points(start), ROUGH_NEIGHBOURHOOD_TOL);
-    let given = search.given_factors();
-    let place = start.iter().copied().chain(given.iter().map(|_| 0.0)).collect();
-    Some(search.right(&near, &given, place)?.evidence)
+    Some(search.right_from(&near, start)?.evidence)
 }
 
 /// The errors of a model once more, with laws in place of smooth curves: they say more of what the errors are. Of several places to begin with

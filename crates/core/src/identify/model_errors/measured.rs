@@ -216,6 +216,11 @@ pub(super) fn chi_squared<'s>(squares: &[Vec<f64>], sigma: impl IntoIterator<Ite
     squares.iter().flatten().zip(sigma).map(|(square, sigma)| square / (sigma * sigma)).sum()
 }
 
+/// Σ 4 ln σ, of real and imaginary parts together, of standard deviations `[line][sensor]`: what they add to −2 ln of a probability.
+pub(super) fn log_variances(sigma: &[Vec<f64>]) -> f64 {
+    sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum()
+}
+
 pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

@@ -2,7 +2,7 @@
 
 use super::band_search::Search;
 use super::fit::Explained;
-use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured};
+use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured, log_variances};
 use crate::c64;
 use frfit_linalg::dense::Cholesky;
 
@@ -49,7 +49,7 @@ impl Measured<'_, '_> {
             false => level,
         };
         let sigma = self.sigma_at(lines, own, 0.0);
-        let logs: f64 = sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum();
+        let logs = log_variances(&sigma);
         let at_own = own / self.level_per_frequency.unwrap_or(own);
         let least = |prior: Vec<f64>| {
             let of = |s: f64| self.about_curves((search, right), &estimates, (share, at_own), &prior, s);

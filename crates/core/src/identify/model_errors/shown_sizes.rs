@@ -59,8 +59,7 @@ impl Fitting<'_, '_> {
         sizes = sizes.with_common(self.known);
         if given.frequency.is_none() {
             // The band shows how large trends are. It does not show what all natural frequencies are off by alike: a modulus of another size would do the same.
-            let common = self.in_common(true).filter(|&i| Some(i) != self.of_scale()).collect();
-            let shown = fresh(common, before.common, (sizes.common, PRIOR_COMMON));
+            let shown = fresh(self.trends().collect(), before.common, (sizes.common, PRIOR_COMMON));
             sizes.common = sizes.common.max(shown);
             // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.
             sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * shown);
