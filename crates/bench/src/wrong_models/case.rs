@@ -77,11 +77,22 @@ pub struct Setting {
     pub meshes: Meshes,
     /// By which factor his nominal value is off at most, to either side; `None` where it is 0.6 to 1.4 times the true one.
     pub nominal_within: Option<f64>,
+    /// How many faults a case has.
+    pub faults: Faults,
+}
+
+/// How many faults a case has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Faults {
+    /// That of its class.
+    One,
+    /// That of its class, and smaller ones of all kinds beside it: of what is known beside the unknown, all mass, a mass at a sensor, and calibrations.
+    All,
 }
 
 impl Setting {
-    /// A single mesh, and a nominal value that is nearly right.
-    pub const USUAL: Self = Self { meshes: Meshes::One, nominal_within: None };
+    /// A single mesh, a nominal value that is nearly right, and one fault.
+    pub const USUAL: Self = Self { meshes: Meshes::One, nominal_within: None, faults: Faults::One };
 }
 
 /// Nominal over true factor.
@@ -117,7 +128,7 @@ impl Case {
     /// # Errors
     /// Where a model cannot be made or solved: a fault of this benchmark.
     pub fn draw(seed: u64, index: u64, setting: Setting, unknowns: Unknowns) -> Result<Self, Failure> {
-        let Setting { meshes, nominal_within } = setting;
+        let Setting { meshes, nominal_within, faults } = setting;
         let class = Class::of(index);
         let mut dice = Dice::new(seed, index);
         let kind = class.kind_of(index, unknowns).ok_or("nothing that is known can be wrong")?;
@@ -160,6 +171,14 @@ impl Case {
             }
             _ => {}
         }
+        let mut others = (faults == Faults::All).then(|| Dice::new(!seed, index));
+        if let Some(others) = &mut others {
+            if unknowns == Unknowns::One {
+                change.known *= others.off_by(0.002, 0.015);
+            }
+            change.mass *= others.off_by(0.002, 0.015);
+            change.masses.push((others.pick(&sensors), others.between(0.001, 0.005) * structure.mass()));
+        }
         let start = truth.scaled(ratio);
         // What else is unknown does not begin at the truth either.
         let (mut begun, mut unchanged) = (structure.clone(), Change::default());
@@ -195,10 +214,17 @@ impl Case {
         };
         let frequency_hz = about.lines;
         let mut exact = solve(&real.model, &experiment(&real)?, &frequency_hz)?;
-        if class == Class::Calibration {
-            let of_force = dice.off_by(0.005, 0.03);
-            let gains: Vec<f64> = sensors.iter().map(|_| of_force * dice.off_by(0.002, 0.02)).collect();
+        let mut calibrate = |dice: &mut Dice, of_force: [f64; 2], of_sensors: [f64; 2]| {
+            let of_force = dice.off_by(of_force[0], of_force[1]);
+            let gain = |_: &[f64; 3]| of_force * dice.off_by(of_sensors[0], of_sensors[1]);
+            let gains: Vec<f64> = sensors.iter().map(gain).collect();
             exact.iter_mut().flat_map(|row| row.iter_mut().zip(&gains)).for_each(|(u, gain)| *u *= gain);
+        };
+        if class == Class::Calibration {
+            calibrate(&mut dice, [0.005, 0.03], [0.002, 0.02]);
+        }
+        if let Some(others) = &mut others {
+            calibrate(others, [0.002, 0.015], [0.001, 0.01]);
         }
         let (noise, noise_known) = (dice.log_between(1e-3, 3e-2), dice.coin());
         let mut dice = dice.fork();

@@ -1,11 +1,11 @@
 //! A zoo of wrong models: how far the modulus is off where the model is not the structure that was measured, and whether error bars and statuses say so.
 //!
 //! `wrong-models [CASES] [SEED] [--class CLASS] [--way WAY] [--csv FILE] [--case K] [--meshes one|finer|two]
-//! [--nominal-within FACTOR]`: so many cases (default 40) of a seed (default 1), of all classes
+//! [--nominal-within FACTOR] [--faults one|all]`: so many cases (default 40) of a seed (default 1), of all classes
 //! and ways or of one; with `--case` the case K alone, line by line. With `--meshes finer` the model has elements of half the size, with
 //! `two` also what would be the model as a coarser mesh beside it. With `--way several` all stiffnesses of a case are unknown: of orthotropic plates, sandwiches and beams
 //! on springs; with `--way several-smooth` the core of a sandwich is smooth. With `--nominal-within 10` the nominal value is off by up to ten times to either side, not
-//! by 0.6 to 1.4. Case K of a seed is always the same, and its class is the K-th, counted round.
+//! by 0.6 to 1.4. With `--faults all` a case has smaller faults of all kinds beside that of its class. Case K of a seed is always the same, and its class is the K-th, counted round.
 //!
 //! Each case draws a structure, its material, load, sensors and noise, and measures the truth, which is another model by class, with direct solves.
 #![allow(clippy::print_stdout)] // tables are what a benchmark is for
@@ -13,7 +13,7 @@
 use frfit::identify::Options;
 use frfit_bench::cases::{Cases, number};
 use frfit_bench::machine;
-use frfit_bench::wrong_models::case::{Meshes, Setting};
+use frfit_bench::wrong_models::case::{Faults, Meshes, Setting};
 use frfit_bench::wrong_models::fault::{Class, Unknowns};
 use frfit_bench::wrong_models::report::{LEGEND, csv, described, errors, lines, markdown};
 use frfit_bench::wrong_models::way::Way;
@@ -29,6 +29,7 @@ struct Arguments {
     case: Option<u64>,
     meshes: Meshes,
     nominal_within: Option<f64>,
+    faults: Faults,
 }
 
 impl Arguments {
@@ -43,6 +44,7 @@ impl Arguments {
             case: None,
             meshes: Meshes::One,
             nominal_within: None,
+            faults: Faults::One,
         };
         let mut positions = 0;
         while let Some(word) = words.next() {
@@ -72,8 +74,15 @@ impl Arguments {
                         }
                     }
                 }
+                "--faults" => {
+                    read.faults = match value.as_str() {
+                        "one" => Faults::One,
+                        "all" => Faults::All,
+                        _ => return Err(format!("--faults: expected one or all, found {value}").into()),
+                    }
+                }
                 _ => {
-                    let expected = "--class, --way, --csv, --case, --nominal-within or --meshes";
+                    let expected = "--class, --way, --csv, --case, --nominal-within, --meshes or --faults";
                     return Err(format!("expected {expected}, found {word}").into());
                 }
             }
@@ -101,7 +110,8 @@ fn main() -> Result<(), Failure> {
             || (class.is_none_or(|class| own == class) && !own.kinds(unknowns).is_empty())
     };
     let indices: Vec<u64> = (first..).filter(is_asked).take(count).collect();
-    let setting = Setting { meshes: arguments.meshes, nominal_within: arguments.nominal_within };
+    let Arguments { meshes, nominal_within, faults, .. } = arguments;
+    let setting = Setting { meshes, nominal_within, faults };
     let one = |index| tried(*seed, index, ways, setting, &options);
     let all = Cases::try_all(&indices, one, described)?;
     if let Some(file) = &arguments.csv {
