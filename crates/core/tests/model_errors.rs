@@ -420,7 +420,7 @@ fn a_smooth_core_beside_free_skins_is_not_far_off_on_a_coarse_mesh() {
 /// A strip on a finer mesh and a spring that the model lacks. Smaller core, stiffer skins and other errors explain the band almost as well: a search that ends where it
 /// comes down has a core of half the truth, five standard deviations off.
 #[test]
-fn a_smooth_core_beside_skins_is_searched_along_its_scale() {
+fn a_smooth_core_beside_skins_is_followed_along_its_valley() {
     let truth = Law::Fractional { e0: 8.14e5, e1: 7.31e4, alpha: 0.528 };
     let strip = sandwich(18, 2);
     let mut spring = Triplets::new(strip.model.dim());

@@ -348,8 +348,11 @@ fn a_constant_stops_at_its_bounds() {
         assert_eq!(ok > 0, !found.constants[0].at_bound, "{:?}", found.fit);
         (value, found.constants[0].at_bound, found.constants[0].status)
     });
-    assert_eq!(lengths[0], (0.95, true, Status::NoRoot));
-    assert_eq!(lengths[1], (1.2, true, Status::NoRoot));
+    for ((value, at_bound, status), bound) in lengths.into_iter().zip([0.95, 1.2]) {
+        // Where a descent ends in a bent valley, it is within 1e-4 of the bound.
+        assert!((value / bound - 1.0).abs() < 1e-4, "{value}");
+        assert_eq!((at_bound, status), (true, Status::NoRoot));
+    }
     assert!(
         !lengths[2].1 && lengths[2].2 == Status::Ok && (lengths[2].0 - length).abs() < 0.01,
         "{lengths:?}"

@@ -162,7 +162,6 @@ impl<'t, 'a> Search<'t, 'a> {
             mesh: self.mesh.as_ref().filter(|_| !modes.omega_rad_s.is_empty()),
             known: KnownSizes::new(self.data.given_sizes, self.mesh.as_ref(), self.curves.is_beside_others()),
             free_nodes: true,
-            held: false,
             for_each: self.for_each,
         }
     }

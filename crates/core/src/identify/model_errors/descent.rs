@@ -14,6 +14,12 @@ const MAX_THETA_STEP: f64 = 0.5;
 const COST_RTOL: f64 = 1e-5;
 const COST_ATOL: f64 = 0.01;
 
+/// Damping to begin with, over the diagonal of the normal equations.
+const FIRST_DAMPING: f64 = 1e-4;
+
+/// Parts of a step that are tried along a bend.
+const PARTS_OF_BEND: [f64; 3] = [1.0, 0.5, 0.25];
+
 /// A minimum.
 pub(super) struct Minimum {
     pub(super) place: Place,
@@ -21,55 +27,93 @@ pub(super) struct Minimum {
     pub(super) prior: f64,
 }
 
+/// Where a descent is: the responses near there, χ² with its slopes, the prior with its own.
+struct Reached {
+    at: Linearised,
+    normal: Normal,
+    prior: f64,
+    pull: Vec<f64>,
+}
+
+impl Reached {
+    /// −2 ln of the probability.
+    fn cost(&self) -> f64 {
+        self.normal.chi_squared + self.prior
+    }
+
+    /// Half of its downward slope.
+    fn slope(&self) -> Vec<f64> {
+        self.normal.gradient.iter().zip(&self.pull).map(|(data, prior)| data - prior).collect()
+    }
+}
+
 impl Fitting<'_, '_> {
     /// Levenberg and Marquardt's method from a place: where it ends, and the responses near there.
+    ///
+    /// Unknowns and errors that can stand in for them leave a narrow valley, which bends. Where a step s is refused, the response at its end shows the bend
+    /// b = x(p + s) − x(p) − J s, and the place p + t s + t² c is tried with c = −(JᵀJ + P)⁻¹ Jᵀ b, which stays in the valley to second order.
+    ///
+    /// # Source
+    /// M. K. Transtrum, J. P. Sethna, arXiv:1201.5885 (2012) (geodesic acceleration; the bend is that of the whole step here, and costs no further response).
     pub(super) fn descend(
         &self,
-        mut at: Linearised,
+        at: Linearised,
         sigma: &[Vec<f64>],
         precision: &[f64],
         steps: usize,
     ) -> Option<(Minimum, Linearised)> {
         let n = self.count();
-        let prior = |place: &[f64]| -> (f64, Vec<f64>) {
-            let off: Vec<f64> = (0..n).map(|i| place[i] - self.expected(i)).collect();
-            let times: Vec<f64> =
+        let reached = |at: Linearised| -> Option<Reached> {
+            let normal = at.normal(sigma, self.for_each)?;
+            let off: Vec<f64> = (0..n).map(|i| at.place[i] - self.expected(i)).collect();
+            let pull: Vec<f64> =
                 precision.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
-            (times.iter().zip(&off).map(|(p, o)| p * o).sum(), times)
+            let prior = pull.iter().zip(&off).map(|(p, o)| p * o).sum();
+            Some(Reached { at, normal, prior, pull })
         };
-        let mut normal = at.normal(sigma, self.for_each)?;
-        let (mut of_prior, mut pull) = prior(&at.place);
-        let (mut damping, mut refused) = (1e-4, 0);
+        let mut here = reached(at)?;
+        // Damping is a part of what the data say, and in a valley it would stop what only the prior drives: the last steps have none, unless that is refused.
+        let (mut damping, mut refused, mut may_be_undamped) = (FIRST_DAMPING, 0, true);
         for _ in 0..steps {
-            let mut matrix = normal.with_prior(precision);
+            let mut matrix = here.normal.with_prior(precision);
             (0..n).for_each(|i| matrix[i * n + i] *= 1.0 + damping);
-            let mut slope: Vec<f64> = normal.gradient.iter().zip(&pull).map(|(g, p)| g - p).collect();
-            let Some(step) = self.step(&at.place, &mut matrix, &mut slope) else {
-                damping *= 10.0;
+            let Some(step) = self.step(&here.at.place, &mut matrix.clone(), &mut here.slope()) else {
+                damping = (damping * 10.0).max(1e-9);
                 continue;
             };
             let longest = step[..self.curves.count()].iter().fold(0.0f64, |most, s| most.max(s.abs()));
             let part = (MAX_THETA_STEP / longest).min(1.0);
-            let mut there: Place = at.place.iter().zip(&step).map(|(p, s)| p + part * s).collect();
-            // Roundoff.
-            self.curves.keep_within_bounds(&mut there);
-            let (other_prior, other_pull) = prior(&there);
-            let cost = normal.chi_squared + of_prior;
-            let other = self.linearised(there).and_then(|there| {
-                let normal = there.normal(sigma, self.for_each)?;
-                (normal.chi_squared + other_prior <= cost).then_some((there, normal))
-            });
-            match other {
-                Some((there, other)) => {
-                    let gain = cost - other.chi_squared - other_prior;
-                    (at, normal, of_prior, pull) = (there, other, other_prior, other_pull);
-                    damping = (damping * 0.1).max(1e-9);
+            let step: Vec<f64> = step.iter().map(|s| part * s).collect();
+            let along = |t: f64, bend: &[f64]| -> Option<Reached> {
+                let path = here.at.place.iter().zip(&step).zip(bend);
+                let mut there: Place = path.map(|((p, s), c)| p + t * s + t * t * c).collect();
+                // Roundoff.
+                self.curves.keep_within_bounds(&mut there);
+                reached(self.linearised(there)?)
+            };
+            let is_lower = |there: &Reached| there.cost() <= here.cost();
+            let straight = along(1.0, &vec![0.0; n]);
+            let next = match straight {
+                Some(there) if !is_lower(&there) && damping <= FIRST_DAMPING => {
+                    let mut bend = here.at.bend(&there.at, &step, sigma);
+                    let back = self.step(&here.at.place, &mut matrix, &mut bend);
+                    back.and_then(|c| PARTS_OF_BEND.iter().filter_map(|&t| along(t, &c)).find(is_lower))
+                }
+                straight => straight.filter(is_lower),
+            };
+            match next {
+                Some(there) => {
+                    let gain = here.cost() - there.cost();
+                    let is_small = gain <= (COST_RTOL * here.cost()).max(COST_ATOL) && part == 1.0;
+                    here = there;
                     refused = 0;
-                    if gain <= (COST_RTOL * cost).max(COST_ATOL) && part == 1.0 {
+                    if is_small && (damping == 0.0 || !may_be_undamped) {
                         break;
                     }
+                    damping = if is_small { 0.0 } else { 0.1 * damping };
                 }
                 None => {
+                    may_be_undamped &= damping > 0.0;
                     damping = (damping * 10.0).max(1e-6);
                     refused += 1;
                     if refused == MAX_REFUSED_STEPS {
@@ -78,7 +122,8 @@ impl Fitting<'_, '_> {
                 }
             }
         }
-        Some((Minimum { place: at.place.clone(), normal, prior: of_prior }, at))
+        let Reached { at, normal, prior, .. } = here;
+        Some((Minimum { place: at.place.clone(), normal, prior }, at))
     }
 
     /// The step to where a quadratic form is least within the bounds: coordinates that would leave them stop there. Both are used up.

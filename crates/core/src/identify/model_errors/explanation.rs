@@ -70,9 +70,6 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
     let wrong = errors.of_stiffness()?;
     let near = search.smaller(&search.points(&wrong.found.place), NEIGHBOURHOOD_TOL);
     let (wrong, best) = errors.with_further_kinds(&near, wrong);
-    // Where nothing explains the band, elsewhere in the valley is no better place.
-    let (near, wrong) =
-        if errors.is_explained(&wrong) { search.along_scales(near, wrong) } else { (near, wrong) };
     let best = best.min(wrong.evidence);
     // The search assumes least sizes of errors. Smaller ones may explain the band better.
     let best = contradicted.map_or(best, |nats| best.min(right.evidence - 2.0 * nats));

@@ -43,7 +43,7 @@ const STAGE_STEPS: usize = 3;
 
 /// Steps at each level of the noise, and at the last.
 const STEPS_PER_LEVEL: usize = 5;
-pub(super) const STEPS_AT_LAST_LEVEL: usize = 5;
+pub(super) const STEPS_AT_LAST_LEVEL: usize = 15;
 
 /// Rounds at most in which sizes and errors are estimated in turn. They end earlier where −2 ln of the evidence changes by less than this from one to the next.
 const MAX_SIZE_ROUNDS: usize = 8;

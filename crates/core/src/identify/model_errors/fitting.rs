@@ -40,8 +40,6 @@ pub(super) struct Fitting<'t, 'a> {
     pub(super) known: KnownSizes,
     /// Whether shapes near nodes may have any value: far from the answer that only lets a mode vanish that is at another frequency.
     pub(super) free_nodes: bool,
-    /// Whether the unknowns stay where they are.
-    pub(super) held: bool,
     pub(super) for_each: ForEach<'t>,
 }
 
@@ -170,16 +168,15 @@ impl Fitting<'_, '_> {
         (0..self.common_parts()).filter(is_wanted).map(move |part| first + part)
     }
 
-    /// The common parts of δ but the scale of all stiffness.
-    pub(super) fn trends(&self) -> impl Iterator<Item = usize> {
-        let scale = self.of_scale();
-        self.in_common(true).filter(move |&i| Some(i) != scale)
+    /// The common parts of δ that are trends of one kind, in the order of their sizes: what grows with ω_i, with its square, or falls with 1/ω_i².
+    pub(super) fn trend(&self, kind: usize) -> impl Iterator<Item = usize> + use<> {
+        let first = self.curves.count() + OF_MESH + kind;
+        (0..self.modes.groups()).map(move |group| first + group * COMMON_PARTS)
     }
 
     /// The common parts that together are an error of all natural frequencies in proportion to ω², one at the highest of the band.
-    pub(super) fn square_trend(&self) -> impl Iterator<Item = usize> {
-        let first = self.curves.count() + OF_MESH + 1;
-        (0..self.modes.groups()).map(move |group| first + group * COMMON_PARTS)
+    pub(super) fn square_trend(&self) -> impl Iterator<Item = usize> + use<> {
+        self.trend(1)
     }
 
     /// What each δ_i has of it.

@@ -69,7 +69,6 @@ pub(in crate::identify) fn estimate_with_laws(
         Some((search, near, found))
     });
     let (search, near, found) = each.min_by(|a, b| a.2.evidence.total_cmp(&b.2.evidence))?;
-    let (near, found) = search.along_scales(near, found);
     let fitting = Fitting { kinds: before.kinds, ..search.fitting(&near.0, &near.1, &search.lines) };
     if !fitting.are_small(&found.found.place) {
         return None;

@@ -41,6 +41,27 @@ impl Linearised {
         self.rows.iter().map(|of_line| of_line.iter().map(square).collect()).collect()
     }
 
+    /// −Jᵀb of the bend b = x(p + s) − x(p) − J s on the way to another place p + s, weighed by σ.
+    pub(super) fn bend(&self, other: &Self, step: &[f64], sigma: &[Vec<f64>]) -> Vec<f64> {
+        let mut sum = vec![0.0; self.count];
+        for ((of_line, others), sigma) in self.rows.iter().zip(&other.rows).zip(sigma) {
+            for (((row, other), coordinates), sigma) in
+                of_line.iter().zip(others).zip(&self.coordinates).zip(sigma)
+            {
+                let (Some((rest, slopes)), Some(rest_there)) = (row.split_last(), other.last()) else {
+                    continue;
+                };
+                if sigma.is_finite() {
+                    let straight: c64 =
+                        coordinates.iter().zip(slopes).map(|(&i, slope)| step[i] * slope).sum();
+                    let bend = (rest - rest_there - straight) / sigma.powi(2);
+                    coordinates.iter().zip(slopes).for_each(|(&i, slope)| sum[i] -= (slope.conj() * bend).re);
+                }
+            }
+        }
+        sum
+    }
+
     /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
     pub(super) fn normal(&self, sigma: &[Vec<f64>], for_each: ForEach<'_>) -> Option<Normal> {
         let n = self.count;
@@ -195,10 +216,37 @@ impl Fitting<'_, '_> {
         let shared = coordinate.checked_sub(self.curves.count()).filter(|_| coordinate < self.first_own());
         let is_common_damping =
             shared.is_some_and(|part| !is_frequency_part(part)) && self.of_unknown_loss() != Some(coordinate);
-        let is_left_out = (self.held && coordinate < self.curves.count())
-            || (is_mass && !self.kinds.masses)
+        let is_left_out = (is_mass && !self.kinds.masses)
             || (is_common_damping && self.kinds.damping == Damping::None)
             || (is_own_damping && self.kinds.damping != Damping::Own);
         !is_left_out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x = i q p₁² + p₁ + 2 p₂ bends by i q s₁² along a step s, whatever s₂ is.
+    #[test]
+    fn the_bend_is_what_is_not_straight() {
+        let (q, measured, sigma) = (3.0, c64::new(1.0, -2.0), 0.5);
+        let near = |place: [f64; 2]| {
+            let response = c64::new(place[0] + 2.0 * place[1], q * place[0].powi(2));
+            let row = vec![c64::new(1.0, 2.0 * q * place[0]), c64::new(2.0, 0.0), measured - response];
+            Linearised {
+                place: place.to_vec(),
+                count: 2,
+                coordinates: vec![vec![0, 1]],
+                rows: vec![vec![row]],
+            }
+        };
+        let (from, step) = ([0.4, -0.7], [0.1, 0.2]);
+        let there = near([from[0] + step[0], from[1] + step[1]]);
+        let found = near(from).bend(&there, &step, &[vec![sigma]]);
+        // −Re(J̄ᵢ b)/σ² with b = i q s₁².
+        let expected = -2.0 * q * from[0] * q * step[0].powi(2) / sigma.powi(2);
+        assert!((found[0] - expected).abs() < 1e-14 && found[1].abs() < 1e-14, "{found:?} {expected}");
+        assert_eq!(near(from).bend(&there, &step, &[vec![f64::INFINITY]]), [0.0; 2]);
     }
 }

@@ -24,7 +24,7 @@
 //! | `linearised`, `descent` | the responses near a place, and the way to a minimum |
 //! | `plausible` | whether errors are small, and agree with what is taken for known |
 //! | `shown_sizes`, `fit` | fits with the noise approached from above, and the sizes of largest evidence |
-//! | `band_search`, `along_scales` | what all fits of a band have in common, and the valley along the scale of an unknown |
+//! | `band_search` | what all fits of a band have in common |
 //! | `tuned`, `paired` | other starts: coordinates one by one, and modes of the measurement |
 //! | `small_errors`, `scatter` | the evidence of small errors, and of unknowns that scatter from line to line |
 //! | `local_stiffness`, `modal_loss`, `estimated`, `posterior`, `split` | the answer with its covariance |
@@ -35,7 +35,6 @@
 //! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425–464 (errors of a model beside its parameters); D. J. C. MacKay, Neural Comput. 4 (1992) 415–447
 //! (evidence, and the number of well-determined parameters).
 
-mod along_scales;
 mod averaged;
 mod band_search;
 mod causality;

@@ -28,7 +28,7 @@ pub(super) fn add_modal_loss(
     let [(unknown, _)] = fitting.damped else { return };
     let is_alone = !fitting.curves.is_beside_others();
     let Some(knots) = fitting.curves.phases(*unknown).filter(|_| is_alone) else { return };
-    let share = UNDAMPED_SHARE_RATIO * sizes.frequency.hypot(sizes.common);
+    let share = UNDAMPED_SHARE_RATIO * sizes.frequency.hypot(sizes.usual_trend());
     let most = LOSS_FACTOR_OF_MISSING_STIFFNESS * share;
     // The level is that of the knots that are known best, and as uncertain as the mean of numbers that scatter as they do. What the data leave open is no distance from it.
     let variances: Vec<f64> = knots.clone().map(|k| covariance[k * n + k]).collect();

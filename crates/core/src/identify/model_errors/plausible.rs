@@ -5,7 +5,7 @@ use super::found::{Assumption, ContradictedAssumption};
 use super::sizes::CALIBRATION_PRIOR_STD;
 
 /// Errors larger than these, root mean squares over the modes of the band, are no small errors of this model: it is another one.
-const MAX_FREQUENCY_ERROR: f64 = 0.04;
+const MAX_FREQUENCY_ERROR: f64 = 0.05;
 const MAX_SHAPE_ERROR: f64 = 0.3;
 
 /// What of those of frequencies another size of the unknown stiffness may take, which is in its error bar: a fifth of that stiffness.

@@ -32,8 +32,10 @@ impl Fitting<'_, '_> {
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         let least = |i: usize| if self.is_of_mesh(i) { self.known.least_of_mesh } else { 0.0 };
-        self.trends().for_each(|i| set(i, sizes.common.max(least(i))));
-        self.of_scale().into_iter().for_each(|i| set(i, sizes.scale));
+        self.in_common(true).for_each(|i| set(i, sizes.scale));
+        for (kind, size) in sizes.trends.iter().enumerate() {
+            self.trend(kind).for_each(|i| set(i, size.max(least(i))));
+        }
         let only_if = |is_looked_for: bool, std: f64| if is_looked_for { std } else { NEGLIGIBLE_STD };
         let damping = |std: f64| only_if(self.kinds.damping == Damping::Own, std);
         let common_loss = |i: usize| {

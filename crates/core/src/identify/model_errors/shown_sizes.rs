@@ -3,8 +3,8 @@
 use super::fitting::Fitting;
 use super::kinds::Damping;
 use super::sizes::{
-    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, MODAL_LOSS_FACTOR_PRIOR_STD, SENSOR_MASS_PRIOR_STD,
-    SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
+    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, MAX_FREQUENCY_STD, MODAL_LOSS_FACTOR_PRIOR_STD,
+    SENSOR_MASS_PRIOR_STD, SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
 };
 
 /// By how much bends of a smooth curve may be less or more than the usual ones.
@@ -13,8 +13,8 @@ const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 /// A size is estimated from the data from this many modes on.
 const PRIOR_MODES: f64 = 0.05;
 
-/// The same of what all modes have in common.
-const PRIOR_COMMON: f64 = 0.5;
+/// The same of a trend.
+const PRIOR_TREND: f64 = 0.5;
 
 /// The same of calibrations, that of the force and as a rule few sensors, and of masses at these.
 const PRIOR_CALIBRATIONS: f64 = 1.0;
@@ -38,7 +38,8 @@ impl Fitting<'_, '_> {
         let given = self.known.given;
         if given.frequency.is_none() {
             let own = self.elastic(true).collect();
-            sizes.frequency = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
+            let shown = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
+            sizes.frequency = shown.min(MAX_FREQUENCY_STD);
         }
         if self.kinds.damping == Damping::Own {
             let own = self.elastic(false).collect();
@@ -59,10 +60,13 @@ impl Fitting<'_, '_> {
         sizes = sizes.with_common(self.known);
         if given.frequency.is_none() {
             // The band shows how large trends are. It does not show what all natural frequencies are off by alike: a modulus of another size would do the same.
-            let shown = fresh(self.trends().collect(), before.common, (sizes.common, PRIOR_COMMON));
-            sizes.common = sizes.common.max(shown);
+            // Each trend has a size of its own: with one for all, those of a mesh and of a support grow together until they stand in for such a modulus.
+            for (kind, size) in sizes.trends.iter_mut().enumerate() {
+                *size =
+                    size.max(fresh(self.trend(kind).collect(), before.trends[kind], (*size, PRIOR_TREND)));
+            }
             // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.
-            sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * shown);
+            sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * sizes.usual_trend());
         }
         sizes
     }

@@ -11,6 +11,10 @@ pub(super) const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
 pub(super) const SHAPE_PRIOR_STD: f64 = 0.02;
 pub(super) const CALIBRATION_PRIOR_STD: f64 = 0.01;
 
+/// Natural frequencies of a model that is about right do not scatter by more. If they might, errors of single modes would explain a band with any modulus, the better
+/// the fewer modes there are.
+pub(super) const MAX_FREQUENCY_STD: f64 = 0.02;
+
 /// The same of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
 pub(super) const SENSOR_MASS_PRIOR_STD: f64 = 0.005;
 
@@ -89,6 +93,9 @@ impl KnownSizes {
     }
 }
 
+/// Kinds of trends that the δ_i have in common.
+pub(super) const TRENDS: usize = 3;
+
 /// Sizes of the errors: standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sizes {
@@ -98,8 +105,9 @@ pub(super) struct Sizes {
     pub(super) loss_factor: f64,
     /// Of e, by which all natural frequencies are off alike.
     pub(super) scale: f64,
-    /// Of what else all δ_i have in common, and of what all ε_i have.
-    pub(super) common: f64,
+    /// Of what else all δ_i have in common: what grows with ω_i, with its square, and what falls with 1/ω_i².
+    pub(super) trends: [f64; TRENDS],
+    /// Of what all ε_i have in common.
     pub(super) common_loss: f64,
     /// Of a_mi.
     pub(super) shape: f64,
@@ -119,8 +127,8 @@ impl Sizes {
         let (shape, loss_factor) = (given.shape.unwrap_or(SHAPE_PRIOR_STD), MODAL_LOSS_FACTOR_PRIOR_STD);
         let calibration = given.calibration.unwrap_or(CALIBRATION_PRIOR_STD);
         let (mass, bend) = (SENSOR_MASS_PRIOR_STD, [1.0; 2]);
-        let (scale, common, common_loss) = (0.0, 0.0, 0.0);
-        Self { frequency, loss_factor, scale, common, common_loss, shape, calibration, mass, bend }
+        let (scale, trends, common_loss) = (0.0, [0.0; TRENDS], 0.0);
+        Self { frequency, loss_factor, scale, trends, common_loss, shape, calibration, mass, bend }
             .with_common(known)
     }
 
@@ -128,7 +136,14 @@ impl Sizes {
     pub(super) fn with_common(self, known: KnownSizes) -> Self {
         let common = (known.common_ratio * self.frequency).min(MAX_COMMON_STD.max(self.frequency));
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
-        Self { scale: common, common, common_loss: of_own.max(UNDAMPED_SHARE_RATIO * common), ..self }
+        let common_loss = of_own.max(UNDAMPED_SHARE_RATIO * common);
+        Self { scale: common, trends: [common; TRENDS], common_loss, ..self }
+    }
+
+    /// The root mean square of the sizes of trends.
+    pub(super) fn usual_trend(&self) -> f64 {
+        let squares: f64 = self.trends.iter().map(|size| size * size).sum();
+        (squares / TRENDS as f64).sqrt()
     }
 
     /// For what θ is then: errors of one shape at several sensors and at the load are no independent ones, and as a prior count as so many.

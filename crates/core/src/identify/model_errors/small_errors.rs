@@ -176,7 +176,7 @@ impl<'t, 'a> About<'t, 'a> {
             frequency: part * usual.frequency,
             loss_factor: part * usual.loss_factor,
             scale: part * usual.scale,
-            common: part * usual.common,
+            trends: usual.trends.map(|size| part * size),
             common_loss: part * usual.common_loss,
             shape: part * usual.shape,
             calibration: part * usual.calibration,
