@@ -68,10 +68,11 @@ impl Fitting<'_, '_> {
                 std,
             }
         });
-        let of_factors = self.factors.iter().zip(&place[self.first_factor()..]);
-        let of_factors = of_factors.filter(|(prior, _)| prior.is_known).map(|(prior, &error)| {
-            let what = Assumption::Factor { term: prior.term, part: prior.part };
-            ContradictedAssumption { what, error, std: prior.std }
+        let errors = self.errors(place);
+        let of_factors = self.factors.iter().zip(&errors.factors);
+        let of_factors = of_factors.filter(|(prior, _)| prior.is_known).map(|(prior, one)| {
+            let what = Assumption::Factor { term: one.term, part: one.part };
+            ContradictedAssumption { what, error: one.relative()[0], std: prior.std }
         });
         let mut all: Vec<ContradictedAssumption> = of_all.into_iter().chain(of_factors).collect();
         all.sort_by(|a, b| b.deviations().total_cmp(&a.deviations()));
