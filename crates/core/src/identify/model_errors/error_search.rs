@@ -147,7 +147,7 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
     }
 
     /// Whether the residual is noise.
-    pub(super) fn is_explained(&self, wrong: &Explained) -> bool {
+    fn is_explained(&self, wrong: &Explained) -> bool {
         self.search.data.is_explained(wrong, &self.search.lines, self.usual_noise)
     }
 

@@ -32,6 +32,7 @@ impl Fitting<'_, '_> {
         }
         let mut set = |i: usize, std: f64| all[i * n + i] = std.powi(-2);
         let least = |i: usize| if self.is_of_mesh(i) { self.known.least_of_mesh } else { 0.0 };
+        // The scale. Further groups have places for one too, which nothing hangs on.
         self.in_common(true).for_each(|i| set(i, sizes.scale));
         for (kind, size) in sizes.trends.iter().enumerate() {
             self.trend(kind).for_each(|i| set(i, size.max(least(i))));
