@@ -47,6 +47,15 @@ impl Reached {
     }
 }
 
+/// A step within the bounds.
+struct Bounded {
+    step: Vec<f64>,
+    /// Coordinates that stop at a bound.
+    stopped: Vec<usize>,
+    /// Of the matrix of the step, without what belongs to them.
+    factor: Cholesky,
+}
+
 impl Fitting<'_, '_> {
     /// Levenberg and Marquardt's method from a place: where it ends, and the responses near there.
     ///
@@ -77,7 +86,8 @@ impl Fitting<'_, '_> {
         for _ in 0..steps {
             let mut matrix = here.normal.with_prior(precision);
             (0..n).for_each(|i| matrix[i * n + i] *= 1.0 + damping);
-            let Some(step) = self.step(&here.at.place, &mut matrix.clone(), &mut here.slope()) else {
+            let Some(Bounded { step, stopped, factor }) = self.bounded(&here.at.place, matrix, here.slope())
+            else {
                 damping = (damping * 10.0).max(1e-9);
                 continue;
             };
@@ -87,7 +97,7 @@ impl Fitting<'_, '_> {
             let along = |t: f64, bend: &[f64]| -> Option<Reached> {
                 let path = here.at.place.iter().zip(&step).zip(bend);
                 let mut there: Place = path.map(|((p, s), c)| p + t * s + t * t * c).collect();
-                // Roundoff.
+                // A bend may leave them.
                 self.curves.keep_within_bounds(&mut there);
                 reached(self.linearised(there)?)
             };
@@ -95,9 +105,10 @@ impl Fitting<'_, '_> {
             let straight = along(1.0, &vec![0.0; n]);
             let next = match straight {
                 Some(there) if !is_lower(&there) && damping <= FIRST_DAMPING => {
-                    let mut bend = here.at.bend(&there.at, &step, sigma);
-                    let back = self.step(&here.at.place, &mut matrix, &mut bend);
-                    back.and_then(|c| PARTS_OF_BEND.iter().filter_map(|&t| along(t, &c)).find(is_lower))
+                    let mut back = here.at.bend(&there.at, &step, sigma);
+                    stopped.iter().for_each(|&i| back[i] = 0.0);
+                    factor.solve(&mut back);
+                    PARTS_OF_BEND.iter().filter_map(|&t| along(t, &back)).find(is_lower)
                 }
                 straight => straight.filter(is_lower),
             };
@@ -126,23 +137,26 @@ impl Fitting<'_, '_> {
         Some((Minimum { place: at.place.clone(), normal, prior }, at))
     }
 
-    /// The step to where a quadratic form is least within the bounds: coordinates that would leave them stop there. Both are used up.
-    fn step(&self, place: &[f64], matrix: &mut [f64], slope: &mut [f64]) -> Option<Vec<f64>> {
+    /// The step to where a quadratic form is least within the bounds: coordinates that would leave them stop there.
+    fn bounded(&self, place: &[f64], mut matrix: Vec<f64>, mut slope: Vec<f64>) -> Option<Bounded> {
         let n = slope.len();
+        let mut stopped = Vec::new();
         loop {
-            let mut step = slope.to_vec();
-            Cholesky::new(n, matrix).ok()?.solve(&mut step);
+            let mut step = slope.clone();
+            let factor = Cholesky::new(n, &matrix).ok()?;
+            factor.solve(&mut step);
             // Bounds are those of a few coordinates, and each stops once.
-            let stopped = self.curves.stopped(place, &step);
-            if stopped.is_empty() {
-                return Some(step);
+            let beyond = self.curves.stopped(place, &step);
+            if beyond.is_empty() {
+                return Some(Bounded { step, stopped, factor });
             }
-            for (i, by) in stopped {
+            for (i, by) in beyond {
                 for j in (0..n).filter(|&j| j != i) {
                     slope[j] -= matrix[i * n + j] * by;
                     (matrix[i * n + j], matrix[j * n + i]) = (0.0, 0.0);
                 }
                 (matrix[i * n + i], slope[i]) = (1.0, by);
+                stopped.push(i);
             }
         }
     }
