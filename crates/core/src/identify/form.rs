@@ -1,7 +1,7 @@
 //! How an unknown that holds for the band hangs on the coordinates of a search.
 
 use crate::c64;
-use crate::laws::{LawKind, Parametrization};
+use crate::laws::{LawKind, ParameterKind, Parametrization};
 
 /// p(ω; θ).
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +41,21 @@ impl Form {
             Self::Scaled(scale) => (vec![theta[0] * scale], vec![vec![*scale]]),
             Self::Law(parametrization) => parametrization.parameters(theta),
         }
+    }
+
+    /// θ of this p times e^`by`.
+    pub(super) fn scaled(&self, theta: &[f64], by: f64) -> Vec<f64> {
+        match self {
+            Self::Logarithm => vec![theta[0] + by],
+            Self::Scaled(_) => vec![theta[0] * by.exp()],
+            Self::Law(parametrization) => parametrization.scaled(theta, by),
+        }
+    }
+
+    /// Which coordinate is its loss factor, of a complex constant.
+    pub(super) fn of_loss_factor(&self) -> Option<usize> {
+        let kind = self.kind()?;
+        (0..kind.count()).find(|&i| kind.parameter_kind(i) == ParameterKind::LossFactor)
     }
 
     /// Its law, where it has one: a complex constant is one too.

@@ -45,6 +45,8 @@ pub(crate) struct Modes {
     pub(crate) group: Vec<usize>,
     /// What of the strain energy of each mode is in each group.
     pub(crate) energy_shares: Vec<Vec<f64>>,
+    /// What of it is in the terms of each unknown, `[mode][unknown]`.
+    pub(crate) unknown_shares: Vec<Vec<f64>>,
     /// What of the stiffness a small error is: 2 of δ_i, iη/(1 + iη) of ε_i.
     share: Vec<c64>,
     /// The part of S_g that belongs to each error, `[g][error]`; empty for parts that are no stiffness.
@@ -215,6 +217,7 @@ impl Projection {
             partner: Vec::new(),
             group: Vec::new(),
             energy_shares: Vec::new(),
+            unknown_shares: Vec::new(),
             share: Vec::new(),
             stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
             directions: self.sensors.clone(),
@@ -245,6 +248,12 @@ impl Projection {
             };
             let each = || of_stiffness.iter().zip(&energies);
             let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
+            let share = |is_there: &dyn Fn(usize) -> bool| -> f64 {
+                let of_terms = each().filter(|((g, _), _)| is_there(self.parts.term(*g)));
+                of_terms.map(|((_, factor), energy)| factor * energy).sum::<f64>() / whole
+            };
+            let shares = at.parameters.iter().map(|unknown| share(&|term| unknown.enters(term)));
+            modes.unknown_shares.push(shares.collect());
             modes.energy_shares.push(vec![0.0; groups.len()]);
             for (place, &wanted) in groups.iter().enumerate() {
                 let of_group = each().filter(|((g, _), _)| is_unknown(*g) == wanted);
@@ -542,6 +551,7 @@ impl Modes {
             partner: Vec::new(),
             group: Vec::new(),
             energy_shares: Vec::new(),
+            unknown_shares: Vec::new(),
             share: Vec::new(),
             stiffness: vec![Vec::new(); model.matrices.len()],
             directions: Vec::new(),

@@ -43,6 +43,8 @@ pub(super) struct Search<'t, 'a> {
     pub(super) values_of_modes: Vec<c64>,
     /// Known factors that may be in error.
     pub(super) factors: Vec<FactorPrior>,
+    /// Unknowns that enter stiffness alone, and are above zero.
+    pub(super) stiffnesses: Vec<usize>,
     /// Unknown stiffnesses with damping, whose loss factors may have an error in common, and the terms of each.
     pub(super) damped: Vec<(usize, Vec<usize>)>,
     /// What lies between the meshes, where there are two.
@@ -65,10 +67,13 @@ impl<'t, 'a> Search<'t, 'a> {
         let Point { at, correction } = data.on(curves, theta, middle(&lines))?;
         let highest = *data.omegas.last()?;
         let modes = model.modes(&at, correction, MODES_ABOVE_BAND * highest, MAX_MODES).ok()?;
+        let all_unknowns = 0..values_of_modes.len();
+        let is_stiffness = |&j: &usize| values_of_modes[j].re > 0.0 && at.is_stiffness(j);
         let is_damped = |&j: &usize| values_of_modes[j].im != 0.0 && at.is_stiffness(j);
         let with_terms = |j: usize| (j, at.terms_of(j).map(|(term, _)| term).collect());
         Some(Self {
-            damped: (0..values_of_modes.len()).filter(is_damped).map(with_terms).collect(),
+            stiffnesses: all_unknowns.clone().filter(is_stiffness).collect(),
+            damped: all_unknowns.filter(is_damped).map(with_terms).collect(),
             model,
             data,
             curves,

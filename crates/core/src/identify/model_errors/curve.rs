@@ -307,10 +307,25 @@ impl Curves {
         self.each.len() > 1 && !self.smooth().is_empty()
     }
 
-    /// Multiplies a smooth unknown by exp(by).
+    /// Multiplies an unknown by exp(by).
     pub(super) fn scale(&self, theta: &mut [f64], unknown: usize, by: f64) {
-        if let (Curve::Spline(spline), range) = &self.each[unknown] {
-            theta[range.clone()].iter_mut().take(spline.knots()).for_each(|log| *log += by);
+        let (curve, range) = &self.each[unknown];
+        let own = &mut theta[range.clone()];
+        match curve {
+            Curve::Spline(spline) => own.iter_mut().take(spline.knots()).for_each(|log| *log += by),
+            Curve::Form(form) => own.copy_from_slice(&form.scaled(own, by)),
+        }
+    }
+
+    /// Gives a smooth unknown or a constant the same loss factor all over the band.
+    pub(super) fn set_loss_factor(&self, theta: &mut [f64], unknown: usize, loss_factor: f64) {
+        match &self.each[unknown] {
+            (Curve::Form(form), range) => {
+                if let Some(own) = form.of_loss_factor() {
+                    theta[range.start + own] = loss_factor;
+                }
+            }
+            (Curve::Spline(_), _) => self.set_phase(theta, unknown, loss_factor.atan()),
         }
     }
 
@@ -434,6 +449,7 @@ impl Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::{LawKind, Parametrization};
 
     /// Cubics with no bend at the ends are their own natural splines; slopes are those of finite differences.
     #[test]
@@ -453,5 +469,26 @@ mod tests {
                 assert!(((there - found) / 1e-6 - slopes[j]).norm() < 1e-4 * found.norm());
             }
         }
+    }
+
+    /// A constant and a smooth curve are multiplied, and have the loss factor that they are given.
+    #[test]
+    fn unknowns_are_scaled_and_have_a_loss_factor() {
+        let omegas: Vec<f64> = (1..=20).map(|k| 10.0 * f64::from(k)).collect();
+        let constant = Parametrization::about(LawKind::Constant, &omegas);
+        let curves = Curves::new(vec![
+            Curve::Form(Form::Law(constant)),
+            Curve::Spline(Spline::new(&omegas, false)),
+            Curve::Form(Form::Logarithm),
+        ]);
+        let mut theta = vec![0.0; curves.count()];
+        for unknown in 0..3 {
+            curves.scale(&mut theta, unknown, 2f64.ln());
+            curves.set_loss_factor(&mut theta, unknown, 0.1);
+        }
+        let (values, _) = curves.values(&theta, 7, omegas[7]).unwrap();
+        assert!((values[0] - c64::new(2.0, 0.2)).norm() < 1e-12, "{values:?}");
+        assert!((values[1].norm() - 2.0).abs() < 1e-12 && (values[1].im / values[1].re - 0.1).abs() < 1e-12);
+        assert!((values[2] - 2.0).norm() < 1e-12, "{values:?}");
     }
 }

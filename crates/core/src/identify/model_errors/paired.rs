@@ -8,6 +8,7 @@ use super::tuned::MAX_SHARE;
 use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
 use crate::modal::{MeasuredMode, Pair, PairedShape, paired};
+use frfit_linalg::dense::Cholesky;
 use std::f64::consts::TAU;
 
 /// Fewer pairs say nothing of a common factor beside the errors of the modes.
@@ -16,9 +17,43 @@ const MIN_PAIRS: usize = 3;
 /// The damping of a mode is that of the unknowns where they have so much of its strain energy.
 const MIN_ENERGY_SHARE: f64 = 0.3;
 
+/// How often pairs are made with unknowns that earlier pairs moved.
+const PAIRING_ROUNDS: usize = 3;
+
+/// By how much partners differ in ln ω, and in loss factor over that.
+const LOG_FREQUENCY_STD: f64 = 0.02;
+const LOSS_FACTOR_STD: f64 = 0.2;
+
+/// By how much one unknown may be off beside all of them, in its logarithm.
+const LOG_FACTOR_STD: f64 = 0.5;
+
+/// No loss factor is a smaller part of the usual one.
+const MIN_LOSS_FACTOR_RATIO: f64 = 0.1;
+
+/// Student's degrees of freedom of the differences of partners: a few pairs may be wrong. How often their weights are found.
+const DEGREES_OF_FREEDOM: f64 = 4.0;
+const WEIGHT_ROUNDS: usize = 4;
+
+/// A mode of the model and its partner.
+struct PairOfModes {
+    /// What of its strain energy is in each unknown.
+    shares: Vec<f64>,
+    /// ln of the measured natural frequency over that of the model.
+    log_ratio: f64,
+    /// Of the measured mode.
+    loss_factor: f64,
+}
+
+impl PairOfModes {
+    /// What of its strain energy is in all unknowns.
+    fn share(&self) -> f64 {
+        self.shares.iter().sum()
+    }
+}
+
 impl Search<'_, '_> {
     /// From a start to where each mode that has a partner in the measurement has its natural frequency and its residues, and the unknowns the damping.
-    /// Natural frequencies without a partner are tried all over their range. `None` where there are too few pairs, or no unknown is smooth.
+    /// Natural frequencies without a partner are tried all over their range. `None` where there are too few pairs.
     pub(super) fn paired(
         &self,
         fitting: &Fitting<'_, '_>,
@@ -36,23 +71,23 @@ impl Search<'_, '_> {
         let of_model = |theta: &[f64]| -> Option<Vec<PairedShape>> {
             elastic.iter().map(|&mode| self.mode(mode, theta, &sensors)).collect()
         };
-        let there = of_model(start)?;
-        let pairing = paired(&there, &of_measured);
-        if pairing.pairs.len() < MIN_PAIRS {
-            return None;
-        }
         let mut theta = start.to_vec();
-        let loss_factor = |pair: &Pair| {
-            let share = there[pair.model].energy_share;
-            (share > MIN_ENERGY_SHARE).then(|| 2.0 * measured[pair.measured].damping_ratio() / share)
-        };
-        let loss_factor = median(pairing.pairs.iter().filter_map(loss_factor).collect());
-        for unknown in self.curves.smooth() {
-            self.curves.scale(&mut theta, unknown, pairing.stiffness_factor.ln());
-            if let Some(loss_factor) = loss_factor {
-                self.curves.set_phase(&mut theta, unknown, loss_factor.atan());
+        let mut pairing = paired(&of_model(&theta)?, &of_measured);
+        // A single unknown is where the common factor says.
+        for _ in 0..if self.stiffnesses.len() > 1 { PAIRING_ROUNDS } else { 1 } {
+            if pairing.pairs.len() < MIN_PAIRS {
+                return None;
             }
+            let of_pair = |pair: &Pair| PairOfModes {
+                shares: self.shares(elastic[pair.model]).collect(),
+                log_ratio: -pair.frequency_difference.ln_1p(),
+                loss_factor: 2.0 * measured[pair.measured].damping_ratio(),
+            };
+            let pairs: Vec<PairOfModes> = pairing.pairs.iter().map(of_pair).collect();
+            self.move_to(&mut theta, &pairs, pairing.stiffness_factor.ln());
+            pairing = paired(&of_model(&theta)?, &of_measured);
         }
+        self.curves.keep_within_bounds(&mut theta);
         let scaled = of_model(&theta)?;
         let mut place = fitting.start(&theta);
         for pair in &pairing.pairs {
@@ -67,19 +102,47 @@ impl Search<'_, '_> {
         fitting.with_best_frequencies_of(place, &alone, used)
     }
 
+    /// Moves unknown stiffnesses to where natural frequencies and loss factors of pairs differ least. By Rayleigh's quotient an unknown with the share w of the strain energy of
+    /// a mode changes ln ω by w/2 of the change of ln p, and the loss factor of the mode is Σ w η. `common` is ln of the factor on all of them with which the pairs fit best.
+    fn move_to(&self, theta: &mut [f64], pairs: &[PairOfModes], common: f64) {
+        let own = |rest: &dyn Fn(&PairOfModes) -> f64, apart: [f64; 2]| -> Vec<f64> {
+            let rests: Vec<f64> = pairs.iter().map(rest).collect();
+            let found = if self.stiffnesses.len() > 1 { differences(pairs, &rests, apart) } else { None };
+            found.unwrap_or_else(|| vec![0.0; self.stiffnesses.len()])
+        };
+        let apart = [2.0 * LOG_FREQUENCY_STD, LOG_FACTOR_STD];
+        let factors = own(&|pair| 2.0 * pair.log_ratio - pair.share() * common, apart);
+        for (&unknown, factor) in self.stiffnesses.iter().zip(factors) {
+            self.curves.scale(theta, unknown, common + factor);
+        }
+        let of_unknowns = pairs.iter().filter(|pair| pair.share() > MIN_ENERGY_SHARE);
+        let usual = median(of_unknowns.map(|pair| pair.loss_factor / pair.share()).collect());
+        let Some(usual) = usual else { return };
+        let loss_factors =
+            own(&|pair| pair.loss_factor - pair.share() * usual, [LOSS_FACTOR_STD * usual, usual]);
+        for (&unknown, loss_factor) in self.stiffnesses.iter().zip(loss_factors) {
+            let loss_factor = (usual + loss_factor).max(MIN_LOSS_FACTOR_RATIO * usual);
+            self.curves.set_loss_factor(theta, unknown, loss_factor);
+        }
+    }
+
+    /// What of the strain energy of a mode is in each unknown stiffness.
+    fn shares(&self, mode: usize) -> impl Iterator<Item = f64> {
+        self.stiffnesses.iter().map(move |&j| self.modes.unknown_shares[mode][j])
+    }
+
     /// A mode of the model with these values of the unknowns, by Rayleigh's quotient from those at which the modes were computed.
     fn mode(&self, mode: usize, theta: &[f64], sensors: &[usize]) -> Option<PairedShape> {
-        let modes = &self.modes;
-        let energy_share = *modes.energy_shares[mode].last()?;
-        let omega = modes.omega_rad_s[mode];
+        let omega = self.modes.omega_rad_s[mode];
         let apart = |line: &usize| (self.data.omegas[*line] / omega).ln().abs();
         let line = self.lines.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
         let (values, _) = self.curves.values(theta, line, self.data.omegas[line])?;
-        let smooth = self.curves.smooth();
-        let ln_ratio = |&j: &usize| (values[j].re / self.values_of_modes[j].re).ln();
-        let mean = smooth.iter().map(ln_ratio).sum::<f64>() / smooth.len() as f64;
-        let omega = omega * (0.5 * energy_share * mean).exp();
-        let residues = modes.residues(mode, omega, sensors);
+        let log_ratio = |&j: &usize| (values[j].re / self.values_of_modes[j].re).ln();
+        let log_factor: f64 =
+            self.shares(mode).zip(&self.stiffnesses).map(|(share, j)| share * log_ratio(j)).sum();
+        let omega = omega * (0.5 * log_factor).exp();
+        let residues = self.modes.residues(mode, omega, sensors);
+        let energy_share = self.shares(mode).sum();
         omega.is_finite().then_some(PairedShape { frequency_hz: omega / TAU, residues, energy_share })
     }
 
@@ -120,5 +183,47 @@ impl Search<'_, '_> {
         let data = self.data;
         let decay_per_s = data.on(self.curves, self.centre, self.lines[0])?.at.model.decay_per_s();
         ShownModes::new(data.omegas, (data.measured, data.sigma), decay_per_s, self.for_each)
+    }
+}
+
+/// x with least Σ (r − Σ w x)²/s² + Σ x²/t², of pairs with shares w, whose rests r have Student's distribution; s and t are standard deviations.
+fn differences(pairs: &[PairOfModes], rests: &[f64], [s, t]: [f64; 2]) -> Option<Vec<f64>> {
+    let n = pairs.first()?.shares.len();
+    let mut x = vec![0.0; n];
+    for _ in 0..WEIGHT_ROUNDS {
+        let mut matrix = vec![0.0; n * n];
+        (0..n).for_each(|i| matrix[i * n + i] = 1.0 / (t * t));
+        let mut right = vec![0.0; n];
+        for (PairOfModes { shares, .. }, rest) in pairs.iter().zip(rests) {
+            let off = (rest - shares.iter().zip(&x).map(|(w, x)| w * x).sum::<f64>()) / s;
+            let weight = (DEGREES_OF_FREEDOM + 1.0) / (DEGREES_OF_FREEDOM + off * off) / (s * s);
+            for i in 0..n {
+                right[i] += weight * shares[i] * rest;
+                (0..n).for_each(|j| matrix[i * n + j] += weight * shares[i] * shares[j]);
+            }
+        }
+        Cholesky::new(n, &matrix).ok()?.solve(&mut right);
+        x = right;
+    }
+    Some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two unknowns are off by different factors, and one of seven pairs is wrong: it is as if it were not there.
+    #[test]
+    fn unknowns_are_moved_apart_by_their_pairs() {
+        let truth = [0.2, -0.3];
+        let pair =
+            |share: f64| PairOfModes { shares: vec![share, 1.0 - share], log_ratio: 0.0, loss_factor: 0.0 };
+        let pairs: Vec<PairOfModes> = [0.9, 0.1, 0.5, 0.7, 0.3, 0.6, 0.4].map(pair).into();
+        let right = |pair: &PairOfModes| pair.shares.iter().zip(truth).map(|(w, x)| w * x).sum();
+        let mut rests: Vec<f64> = pairs.iter().map(right).collect();
+        rests[2] += 0.4;
+        let found = differences(&pairs, &rests, [0.04, 0.5]).unwrap();
+        let off = found.iter().zip(truth).map(|(x, truth)| (x - truth).abs()).fold(0.0, f64::max);
+        assert!(off < 0.02, "{found:?}");
     }
 }
