@@ -39,6 +39,11 @@ impl ChannelCoordinates {
         &self.free
     }
 
+    /// The channels whose scale is unknown.
+    pub(in crate::identify) fn of_unknown_scale(&self) -> Vec<usize> {
+        self.free.iter().filter(|number| !number.is_delay).map(|number| number.channel).collect()
+    }
+
     /// Where they stand in θ.
     pub(in crate::identify) fn range(&self) -> Range<usize> {
         self.first..self.first + self.free.len()

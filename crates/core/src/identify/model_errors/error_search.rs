@@ -51,7 +51,7 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
         let mut wrong = None;
         for from in each {
             if !wrong.as_ref().is_some_and(|wrong| self.is_found(wrong)) {
-                wrong = better(wrong, from(self));
+                wrong = self.better(wrong, from(self));
             }
         }
         Some(self.tuned(wrong?))
@@ -135,7 +135,9 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
                 // A minimum that explains the band is near. From any other one added noise leads away.
                 let more = if self.is_explained(&wrong) {
                     let sizes = wrong.sizes.with_kinds(kinds, fine.known);
-                    fitting.linearised(place).and_then(|at| data.settled(&fitting, at, sizes, wrong.level))
+                    fitting
+                        .linearised(place)
+                        .and_then(|at| data.settled(&fitting, at, sizes, [wrong.level, wrong.rest]))
                 } else {
                     data.explain(&fitting, place, &ADDED_NOISE[LAST_LEVELS..])
                 };
@@ -154,6 +156,15 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
     /// The same with small errors. Large ones may explain a band as well: those of modes at each other's places.
     fn is_found(&self, wrong: &Explained) -> bool {
         self.is_explained(wrong) && self.whole.are_small(&wrong.found.place)
+    }
+
+    /// The fit of small errors, or of larger evidence where both have them or neither.
+    fn better(&self, a: Option<Explained>, b: Option<Explained>) -> Option<Explained> {
+        let are_large = |one: &Explained| !self.whole.are_small(&one.found.place);
+        let order = |a: &Explained, b: &Explained| {
+            are_large(a).cmp(&are_large(b)).then(a.evidence.total_cmp(&b.evidence))
+        };
+        a.into_iter().chain(b).min_by(order)
     }
 
     /// Whether a sensor is not left out at a line.
@@ -178,9 +189,4 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
         let data = self.search.data;
         self.search.near(place, kinds, &|fitting, place| data.explain(fitting, place, from_above))
     }
-}
-
-/// The fit of larger evidence.
-fn better(a: Option<Explained>, b: Option<Explained>) -> Option<Explained> {
-    a.into_iter().chain(b).min_by(|a, b| a.evidence.total_cmp(&b.evidence))
 }

@@ -6,7 +6,7 @@ use super::fitting::{Fitting, Place};
 use super::kinds::Kinds;
 use super::linearised::Linearised;
 use super::measured::{
-    MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance, log_variances,
+    MAX_REST, MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance, log_variances,
 };
 use super::sizes::Sizes;
 use crate::identify::thinned::thinned;
@@ -100,30 +100,36 @@ impl Measured<'_, '_> {
         let known = self.known();
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let numbers = self.numbers(fitting.lines) as f64;
-        let (mut at, mut level) = (fitting.linearised(place)?, 1.0);
+        let (mut at, mut level, mut rest) = (fitting.linearised(place)?, 1.0, 0.0);
         for &added in from_above {
             let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
             let (found, near) = fitting.descend(at, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
             at = near;
-            if !known {
-                level = added;
-                // The noise itself is larger than what would come next.
-                if found.normal.chi_squared > numbers {
-                    break;
-                }
+            // What is left is larger than what would come next: with less noise, errors would only follow it.
+            let is_left = found.normal.chi_squared > numbers;
+            match known {
+                true if is_left => rest = added.min(MAX_REST),
+                true => {}
+                false => level = added,
+            }
+            if is_left {
+                break;
             }
         }
-        self.settled(fitting, at, sizes, level)
+        self.settled(fitting, at, sizes, [level, rest])
     }
 
     /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
     pub(super) fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
-        let sigma = fitting.lines.iter().map(|&line| &self.sigma[line]);
         let at = fitting.linearised(place)?;
-        let left = chi_squared(&at.squares(), sigma) / self.numbers(fitting.lines) as f64;
-        let level = if self.known() { 1.0 } else { left.sqrt().max(MIN_NOISE_OVER_RESPONSE) };
-        self.settled(fitting, at, sizes, level)
+        let (squares, numbers) = (at.squares(), self.numbers(fitting.lines) as f64);
+        let left = || chi_squared(&squares, fitting.lines.iter().map(|&line| &self.sigma[line])) / numbers;
+        let begin = match self.known() {
+            true => [1.0, self.rest(fitting.lines, &squares, numbers)],
+            false => [left().sqrt().max(MIN_NOISE_OVER_RESPONSE), 0.0],
+        };
+        self.settled(fitting, at, sizes, begin)
     }
 
     /// The least squares near a place, with the noise and the sizes of largest evidence: those to begin with are nearly right.
@@ -132,11 +138,13 @@ impl Measured<'_, '_> {
         fitting: &Fitting<'_, '_>,
         mut at: Linearised,
         mut sizes: Sizes,
-        mut level: f64,
+        [mut level, mut rest]: [f64; 2],
     ) -> Option<Explained> {
         let known = self.known();
         let numbers = self.numbers(fitting.lines) as f64;
-        let mut rest = 0.0;
+        // A right model has no such part.
+        let has_rest = known && !fitting.shapes().is_empty();
+        rest = if has_rest { rest } else { 0.0 };
         let mut last = None;
         for _ in 0..MAX_SIZE_ROUNDS {
             let sigma = self.sigma_beside(fitting.lines, level, rest);
@@ -149,14 +157,13 @@ impl Measured<'_, '_> {
             let inverse = factor.inverse();
             let variance = |i: usize| inverse[i * n + i];
             let of_prior = Cholesky::new(n, &precision).ok()?.log_determinant();
-            let evidence =
-                log_variances(&sigma) + found.normal.chi_squared + found.prior + factor.log_determinant()
-                    - of_prior;
+            let misfit = log_variances(&sigma) + found.normal.chi_squared + found.prior;
+            let evidence = misfit + factor.log_determinant() - of_prior + sizes.improbability();
             let determined: f64 =
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;
             let before = (level, sizes, rest);
-            if known && !fitting.shapes().is_empty() {
+            if has_rest {
                 rest = self.rest(fitting.lines, &at.squares(), (numbers - determined).max(1.0));
             }
             let same = last

@@ -77,7 +77,7 @@ const MAX_ROUNDOFF_OVER_RESPONSE: f64 = 1e-5;
 
 /// Beside a given noise and the errors of modes, shapes and factors a response may be off by this part of itself: no model is
 /// better between resonances. What is more is not explained.
-const MAX_REST: f64 = 0.05;
+pub(super) const MAX_REST: f64 = 0.05;
 
 /// Halvings to what is beside noise and errors: to a ten-thousandth of the most.
 const REST_HALVINGS: usize = 13;

@@ -10,6 +10,9 @@ pub(super) const NEGLIGIBLE_STD: f64 = 1e-7;
 /// Standard deviation of δ of a rigid body: a usual suspension has natural frequencies below a third of the first other one.
 const RIGID_BODY_STD: f64 = 0.05;
 
+/// Standard deviation of the mean error of the shapes at a place whose scale is unknown: practically zero.
+const MEAN_SHAPE_STD: f64 = 1e-3;
+
 /// Standard deviation of the part of the mesh's error of a mode over that of all modes: they converge by somewhat different orders.
 const ORDER_SCATTER: f64 = 0.3;
 
@@ -63,7 +66,33 @@ impl Fitting<'_, '_> {
         self.masses().for_each(|i| set(i, mass));
         self.gains().for_each(|i| set(i, sizes.calibration));
         self.shapes().for_each(|i| set(i, (sizes.shape * self.growth(i)).hypot(self.scatter_of_mesh(i))));
+        for weights in self.means_of_shapes() {
+            for (i, a) in &weights {
+                weights.iter().for_each(|(j, b)| all[i * n + j] += a * b / MEAN_SHAPE_STD.powi(2));
+            }
+        }
         all
+    }
+
+    /// The mean error of the shapes of the band at each place whose scale is unknown, as coordinates with their weights: the scale is what they have in common.
+    fn means_of_shapes(&self) -> Vec<Vec<(usize, f64)>> {
+        let lowest_rad_s = self.omegas.iter().copied().find(|omega| *omega > 0.0).unwrap_or(0.0);
+        let is_in_band =
+            |&mode: &usize| (lowest_rad_s..=self.highest_rad_s).contains(&self.modes.omega_rad_s[mode]);
+        let in_band: Vec<usize> = (0..self.modes()).filter(is_in_band).collect();
+        let mean = |first: usize| {
+            let weights = in_band.iter().map(|&mode| (first + mode, 1.0 / self.growth(first + mode)));
+            let all: f64 = weights.clone().map(|(_, weight)| weight).sum();
+            weights.map(|(coordinate, weight)| (coordinate, weight / all)).collect()
+        };
+        let of_unknown_scale = self.curves.channels().of_unknown_scale();
+        let of_load = (of_unknown_scale.len() == self.sensors()).then(|| self.first_load());
+        let of_sensors = of_unknown_scale.iter().map(|&m| self.first_shape(m));
+        if in_band.is_empty() {
+            Vec::new()
+        } else {
+            of_load.into_iter().chain(of_sensors).map(mean).collect()
+        }
     }
 
     /// The standard deviation that the mesh adds to an own δ or a: modes converge by somewhat different orders, and those without a partner by an unknown one.

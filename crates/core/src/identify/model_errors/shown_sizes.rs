@@ -3,8 +3,8 @@
 use super::fitting::Fitting;
 use super::kinds::Damping;
 use super::sizes::{
-    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, MAX_FREQUENCY_STD, MODAL_LOSS_FACTOR_PRIOR_STD,
-    SENSOR_MASS_PRIOR_STD, SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
+    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, LARGE_FREQUENCY_STD, LARGE_SHAPE_STD,
+    MODAL_LOSS_FACTOR_PRIOR_STD, SENSOR_MASS_PRIOR_STD, SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
 };
 
 /// By how much bends of a smooth curve may be less or more than the usual ones.
@@ -13,8 +13,8 @@ const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 /// A size is estimated from the data from this many modes on.
 const PRIOR_MODES: f64 = 0.05;
 
-/// The same of a trend.
-const PRIOR_TREND: f64 = 0.5;
+/// The same of a trend, of which there is one: a mesh may err by twice what is usual, and not by ten times.
+const PRIOR_TREND: f64 = 8.0;
 
 /// The same of calibrations, that of the force and as a rule few sensors, and of masses at these.
 const PRIOR_CALIBRATIONS: f64 = 1.0;
@@ -28,25 +28,29 @@ impl Fitting<'_, '_> {
             return sizes;
         }
         let n = self.count();
-        // The size that some errors show; what was known of it counts as so many errors.
-        let fresh = |of: Vec<usize>, size: f64, (prior, count): (f64, f64)| {
+        // The size that some errors show; what was known of it counts as so many errors. Sizes s that are `large` have the prior exp(−s²/2 large²).
+        let shown = |of: Vec<usize>, size: f64, (prior, count): (f64, f64), large: f64| {
             let squares: f64 = of.iter().map(|&i| (place[i] / self.growth(i)).powi(2)).sum();
             let share = |i: usize| covariance[i * n + i] / (size * self.growth(i)).powi(2);
             let determined: f64 = of.iter().map(|&i| (1.0 - share(i)).clamp(0.0, 1.0)).sum();
-            ((squares + count * prior * prior) / (determined + count)).sqrt()
+            let (squares, count) = (squares + count * prior * prior, determined + count);
+            (2.0 * squares / (count + (count * count + 4.0 * squares / (large * large)).sqrt())).sqrt()
         };
+        let fresh = |of: Vec<usize>, size: f64, prior: (f64, f64)| shown(of, size, prior, f64::INFINITY);
         let given = self.known.given;
         if given.frequency.is_none() {
             let own = self.elastic(true).collect();
-            let shown = fresh(own, sizes.frequency, (FREQUENCY_PRIOR_STD, PRIOR_MODES));
-            sizes.frequency = shown.min(MAX_FREQUENCY_STD);
+            let prior = (FREQUENCY_PRIOR_STD, PRIOR_MODES);
+            let shown = shown(own, sizes.frequency, prior, LARGE_FREQUENCY_STD);
+            sizes.frequency = shown.min(self.known.most_of_modes);
         }
         if self.kinds.damping == Damping::Own {
             let own = self.elastic(false).collect();
             sizes.loss_factor = fresh(own, sizes.loss_factor, (MODAL_LOSS_FACTOR_PRIOR_STD, PRIOR_MODES));
         }
         if given.shape.is_none() {
-            sizes.shape = fresh(self.shapes().collect(), sizes.shape, (SHAPE_PRIOR_STD, PRIOR_MODES));
+            let prior = (SHAPE_PRIOR_STD, PRIOR_MODES);
+            sizes.shape = shown(self.shapes().collect(), sizes.shape, prior, LARGE_SHAPE_STD);
         }
         if given.calibration.is_none() {
             let prior = (CALIBRATION_PRIOR_STD, PRIOR_CALIBRATIONS);

@@ -11,9 +11,10 @@ pub(super) const MODAL_LOSS_FACTOR_PRIOR_STD: f64 = 0.01;
 pub(super) const SHAPE_PRIOR_STD: f64 = 0.02;
 pub(super) const CALIBRATION_PRIOR_STD: f64 = 0.01;
 
-/// Natural frequencies of a model that is about right do not scatter by more. If they might, errors of single modes would explain a band with any modulus, the better
+/// Natural frequencies and shapes of a model that is about right hardly scatter by more. If they might, errors of single modes would explain a band with any modulus, the better
 /// the fewer modes there are.
-pub(super) const MAX_FREQUENCY_STD: f64 = 0.02;
+pub(super) const LARGE_FREQUENCY_STD: f64 = 0.02;
+pub(super) const LARGE_SHAPE_STD: f64 = 0.1;
 
 /// The same of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
 pub(super) const SENSOR_MASS_PRIOR_STD: f64 = 0.005;
@@ -35,6 +36,9 @@ const LEAST_OF_MESH_STD: f64 = 0.01;
 /// A curve beside other unknowns absorbs what single modes err by too, so that the data do not show its size: elements of a coarse mesh err by other amounts in
 /// twisting than in bending.
 const LEAST_OF_MODES_STD: f64 = 0.02;
+
+/// The data hardly show more of it either: what is beyond moves the curve.
+const MAX_OF_MODES_BESIDE_CURVE: f64 = 0.02;
 
 /// A support that gives alike in all modes is taken for a smaller modulus, and its damping for that of the material. Where it has two per cent of the strain energy and no
 /// damping, the loss factor is found two per cent too small.
@@ -59,6 +63,8 @@ pub(super) struct KnownSizes {
     pub(super) least_of_mesh: f64,
     /// The least of what each mode has of its own; it grows with the square of the frequency.
     pub(super) least_of_modes: f64,
+    /// The most of what each mode has of its own.
+    pub(super) most_of_modes: f64,
     /// The least of the error that all loss factors of the unknown have in common.
     pub(super) least_of_unknown_loss: f64,
 }
@@ -78,6 +84,7 @@ impl KnownSizes {
             common_ratio,
             least_of_mesh: least(is_unknown, LEAST_OF_MESH_STD),
             least_of_modes: least(is_unknown && is_curve_beside_others, LEAST_OF_MODES_STD),
+            most_of_modes: if is_curve_beside_others { MAX_OF_MODES_BESIDE_CURVE } else { f64::INFINITY },
             least_of_unknown_loss: least(is_unknown, LEAST_OF_UNKNOWN_LOSS_STD),
         }
     }
@@ -138,6 +145,11 @@ impl Sizes {
         let of_own = COMMON_LOSS_RATIO * self.loss_factor;
         let common_loss = of_own.max(UNDAMPED_SHARE_RATIO * common);
         Self { scale: common, trends: [common; TRENDS], common_loss, ..self }
+    }
+
+    /// −2 ln of how probable they are, up to a constant: large ones are not.
+    pub(super) fn improbability(&self) -> f64 {
+        (self.frequency / LARGE_FREQUENCY_STD).powi(2) + (self.shape / LARGE_SHAPE_STD).powi(2)
     }
 
     /// The root mean square of the sizes of trends.
