@@ -488,7 +488,7 @@ pub(crate) fn solve(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use frfit::identify::{Explained, Status};
+    use frfit::identify::{Explained, Line, Status};
 
     /// The first case of a class on beams alone: those take the least time.
     fn small(class: usize) -> Case {
@@ -530,13 +530,16 @@ mod tests {
         let truth = loss_factor(truth);
         let ok: Vec<_> = found.lines.iter().filter(|line| line.status == Status::Ok).collect();
         assert!(ok.len() > 170);
-        for line in ok {
+        let deviations = |line: &&Line| -> f64 {
             let one = &line.values[0];
             let off = one.loss_factor().unwrap() / truth - 1.0;
             let bar = one.uncertainty.unwrap().loss_factor_std.unwrap() / truth;
-            // A curve has few errors, which neighbouring lines share: it is 2.0 standard deviations off at the end of the band.
-            assert!(off.abs() < 2.5 * bar && bar < 0.15, "{}: {off} {bar}", line.frequency_hz);
-        }
+            assert!(bar < 0.15, "{}: {off} {bar}", line.frequency_hz);
+            off.abs() / bar
+        };
+        let off: Vec<f64> = ok.iter().map(deviations).collect();
+        let within = off.iter().filter(|off| **off < 2.0).count();
+        assert!(10 * within >= 9 * off.len() && off.iter().all(|off| *off < 2.5), "{off:?}");
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use super::fitting::Fitting;
 use super::kinds::Damping;
 use super::sizes::{
-    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, LARGE_FREQUENCY_STD, LARGE_SHAPE_STD,
-    MODAL_LOSS_FACTOR_PRIOR_STD, SENSOR_MASS_PRIOR_STD, SHAPE_PRIOR_STD, Sizes, UNDAMPED_SHARE_RATIO,
+    CALIBRATION_PRIOR_STD, FREQUENCY_PRIOR_STD, LARGE_FREQUENCY_STD, LARGE_SHAPE_STD, MAX_COMMON_STD,
+    MODAL_LOSS_FACTOR_PRIOR_STD, SENSOR_MASS_PRIOR_STD, SHAPE_PRIOR_STD, Sizes, TRENDS, UNDAMPED_SHARE_RATIO,
 };
 
 /// By how much bends of a smooth curve may be less or more than the usual ones.
@@ -13,8 +13,9 @@ const BEND_RANGE: [f64; 2] = [0.01, 3.0];
 /// A size is estimated from the data from this many modes on.
 const PRIOR_MODES: f64 = 0.05;
 
-/// The same of a trend, of which there is one: a mesh may err by twice what is usual, and not by ten times.
-const PRIOR_TREND: f64 = 8.0;
+/// The same of a trend, and of one that is larger than what all modes usually have in common: a mesh may err by twice as much, and not by ten times.
+const PRIOR_TREND: f64 = 0.5;
+const PRIOR_LARGE_TREND: f64 = 8.0;
 
 /// The same of calibrations, that of the force and as a rule few sensors, and of masses at these.
 const PRIOR_CALIBRATIONS: f64 = 1.0;
@@ -65,12 +66,18 @@ impl Fitting<'_, '_> {
         if given.frequency.is_none() {
             // The band shows how large trends are. It does not show what all natural frequencies are off by alike: a modulus of another size would do the same.
             // Each trend has a size of its own: with one for all, those of a mesh and of a support grow together until they stand in for such a modulus.
-            for (kind, size) in sizes.trends.iter_mut().enumerate() {
-                *size =
-                    size.max(fresh(self.trend(kind).collect(), before.trends[kind], (*size, PRIOR_TREND)));
-            }
+            let usual = sizes.trends;
+            let shown_with = |count: f64| -> [f64; TRENDS] {
+                std::array::from_fn(|kind| {
+                    let prior = (usual[kind], count);
+                    usual[kind].max(fresh(self.trend(kind).collect(), before.trends[kind], prior))
+                })
+            };
+            let (there, large) = (shown_with(PRIOR_TREND), shown_with(PRIOR_LARGE_TREND));
+            sizes.trends = std::array::from_fn(|kind| there[kind].min(MAX_COMMON_STD.max(large[kind])));
             // A stiffness that shifts all natural frequencies may have no damping, or more than the structure.
-            sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * sizes.usual_trend());
+            let there = Sizes { trends: there, ..sizes }.usual_trend();
+            sizes.common_loss = sizes.common_loss.max(UNDAMPED_SHARE_RATIO * there);
         }
         sizes
     }

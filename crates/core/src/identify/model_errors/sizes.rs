@@ -45,7 +45,7 @@ const MAX_OF_MODES_BESIDE_CURVE: f64 = 0.02;
 const LEAST_OF_UNKNOWN_LOSS_STD: f64 = 0.02;
 
 /// A few modes may be far off; all of them are not, by more than this, unless their scatter is larger.
-const MAX_COMMON_STD: f64 = 0.025;
+pub(super) const MAX_COMMON_STD: f64 = 0.025;
 
 /// A stiffness that is not in the model and changes ω by δ has 2δ of the strain energy. Where it has no damping, that is how far the loss factor is off.
 pub(super) const UNDAMPED_SHARE_RATIO: f64 = 2.0;
