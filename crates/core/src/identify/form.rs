@@ -54,8 +54,7 @@ impl Form {
 
     /// Which coordinate is its loss factor, of a complex constant.
     pub(super) fn of_loss_factor(&self) -> Option<usize> {
-        let kind = self.kind()?;
-        (0..kind.count()).find(|&i| kind.parameter_kind(i) == ParameterKind::LossFactor)
+        self.kind()?.place_of(ParameterKind::LossFactor)
     }
 
     /// Its law, where it has one: a complex constant is one too.

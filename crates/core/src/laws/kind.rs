@@ -214,6 +214,11 @@ impl LawKind {
         }
     }
 
+    /// Which parameter is the first of a kind.
+    pub(crate) fn place_of(self, kind: ParameterKind) -> Option<usize> {
+        (0..self.count()).find(|&i| self.parameter_kind(i) == kind)
+    }
+
     /// What the parameter `i` is.
     pub(crate) fn parameter_kind(self, i: usize) -> ParameterKind {
         let own = self.own();

@@ -40,7 +40,7 @@ impl Parametrization {
             let alpha = 1.0 / (1.0 + (-t).exp());
             (alpha, alpha / (1.0 + t.exp()))
         };
-        let exponent = self.exponent().map(|k| (k, logistic(theta[k])));
+        let exponent = self.kind.place_of(ParameterKind::Exponent).map(|k| (k, logistic(theta[k])));
         let mut p = vec![0.0; n];
         for i in 0..n {
             let exponential = theta[i].exp();
@@ -64,17 +64,12 @@ impl Parametrization {
         (p, slopes)
     }
 
-    /// Which parameter is the exponent.
-    fn exponent(&self) -> Option<usize> {
-        (0..self.kind.count()).find(|&i| self.kind.parameter_kind(i) == ParameterKind::Exponent)
-    }
-
     /// θ of parameters that satisfy the constraints; what is on their edge comes to stand just inside.
     pub(crate) fn coordinates(&self, p: &[f64]) -> Vec<f64> {
         let log = |x: f64| x.max(f64::MIN_POSITIVE).ln();
         let logit = |x: f64| (log(x) - log(1.0 - x)).clamp(-MAX_LOGIT, MAX_LOGIT);
         let reference = self.reference_rad_s;
-        let alpha = self.exponent().map_or(0.0, |k| p[k]);
+        let alpha = self.kind.place_of(ParameterKind::Exponent).map_or(0.0, |k| p[k]);
         let coordinate = |i: usize| match self.kind.parameter_kind(i) {
             ParameterKind::Modulus => log(p[i]),
             ParameterKind::ModulusAboveFirst => log(p[i] - p[0]),

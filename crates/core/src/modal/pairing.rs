@@ -45,7 +45,7 @@ pub struct Pairing {
 
 /// Standard deviations by which modes of one structure differ: the logarithm of the frequency beside a common factor, the logarithm of
 /// the size of its residues, and the part of the shape that is another, √(1 − MAC).
-const LOG_FREQUENCY_STD: f64 = 0.02;
+pub(crate) const LOG_FREQUENCY_STD: f64 = 0.02;
 const LOG_SIZE_STD: f64 = 0.8;
 const SHAPE_STD: f64 = 0.25;
 

@@ -19,7 +19,7 @@
 use super::assess::{Solutions, weights};
 use super::{FactorError, Point, Projection, UnknownLoss};
 use crate::c64;
-use crate::model::{ModelAt, Role};
+use crate::model::{ModelAt, ParameterAt, Role};
 use frfit_linalg::dense::NoConvergence;
 use frfit_linalg::solve::Breakdown;
 use frfit_linalg::vector::transpose_dot;
@@ -248,12 +248,11 @@ impl Projection {
             };
             let each = || of_stiffness.iter().zip(&energies);
             let whole: f64 = each().map(|((_, factor), energy)| factor * energy).sum();
-            let share = |is_there: &dyn Fn(usize) -> bool| -> f64 {
-                let of_terms = each().filter(|((g, _), _)| is_there(self.parts.term(*g)));
-                of_terms.map(|((_, factor), energy)| factor * energy).sum::<f64>() / whole
+            let share_of = |unknown: &ParameterAt| -> f64 {
+                let own = each().filter(|((g, _), _)| unknown.enters(self.parts.term(*g)));
+                own.map(|((_, factor), energy)| factor * energy).sum::<f64>() / whole
             };
-            let shares = at.parameters.iter().map(|unknown| share(&|term| unknown.enters(term)));
-            modes.unknown_shares.push(shares.collect());
+            modes.unknown_shares.push(at.parameters.iter().map(share_of).collect());
             modes.energy_shares.push(vec![0.0; groups.len()]);
             for (place, &wanted) in groups.iter().enumerate() {
                 let of_group = each().filter(|((g, _), _)| is_unknown(*g) == wanted);

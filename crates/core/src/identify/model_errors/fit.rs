@@ -107,12 +107,11 @@ impl Measured<'_, '_> {
             at = near;
             // What is left is larger than what would come next: with less noise, errors would only follow it.
             let is_left = found.normal.chi_squared > numbers;
-            match known {
-                true if is_left => rest = added.min(MAX_REST),
-                true => {}
-                false => level = added,
+            if !known {
+                level = added;
             }
             if is_left {
+                rest = added.min(MAX_REST);
                 break;
             }
         }

@@ -7,7 +7,7 @@ use super::fitting::{Fitting, Place};
 use super::tuned::MAX_SHARE;
 use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
-use crate::modal::{MeasuredMode, Pair, PairedShape, paired};
+use crate::modal::{LOG_FREQUENCY_STD, MeasuredMode, Pair, PairedShape, paired};
 use frfit_linalg::dense::Cholesky;
 use std::f64::consts::TAU;
 
@@ -20,8 +20,7 @@ const MIN_ENERGY_SHARE: f64 = 0.3;
 /// How often pairs are made with unknowns that earlier pairs moved.
 const PAIRING_ROUNDS: usize = 3;
 
-/// By how much partners differ in ln ω, and in loss factor over that.
-const LOG_FREQUENCY_STD: f64 = 0.02;
+/// By how much the loss factors of partners differ, over the usual one.
 const LOSS_FACTOR_STD: f64 = 0.2;
 
 /// By how much one unknown may be off beside all of them, in its logarithm.

@@ -42,8 +42,8 @@ impl Fitting<'_, '_> {
         if given.frequency.is_none() {
             let own = self.elastic(true).collect();
             let prior = (FREQUENCY_PRIOR_STD, PRIOR_MODES);
-            let shown = shown(own, sizes.frequency, prior, LARGE_FREQUENCY_STD);
-            sizes.frequency = shown.min(self.known.most_of_modes);
+            sizes.frequency =
+                shown(own, sizes.frequency, prior, LARGE_FREQUENCY_STD).min(self.known.most_of_modes);
         }
         if self.kinds.damping == Damping::Own {
             let own = self.elastic(false).collect();
