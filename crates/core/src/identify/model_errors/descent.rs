@@ -2,6 +2,7 @@
 
 use super::fitting::{Fitting, Place};
 use super::linearised::{Linearised, Normal};
+use super::whitening::Whitening;
 use frfit_linalg::dense::Cholesky;
 
 /// Steps that are refused before a search ends.
@@ -67,13 +68,13 @@ impl Fitting<'_, '_> {
     pub(super) fn descend(
         &self,
         at: Linearised,
-        sigma: &[Vec<f64>],
+        whitening: &Whitening,
         precision: &[f64],
         steps: usize,
     ) -> Option<(Minimum, Linearised)> {
         let n = self.count();
         let reached = |at: Linearised| -> Option<Reached> {
-            let normal = at.normal(sigma, self.for_each)?;
+            let normal = at.normal(whitening, self.for_each)?;
             let off: Vec<f64> = (0..n).map(|i| at.place[i] - self.expected(i)).collect();
             let pull: Vec<f64> =
                 precision.chunks_exact(n).map(|row| row.iter().zip(&off).map(|(p, o)| p * o).sum()).collect();
@@ -105,7 +106,7 @@ impl Fitting<'_, '_> {
             let straight = along(1.0, &vec![0.0; n]);
             let next = match straight {
                 Some(there) if !is_lower(&there) && damping <= FIRST_DAMPING => {
-                    let mut back = here.at.bend(&there.at, &step, sigma);
+                    let mut back = here.at.bend(&there.at, &step, whitening);
                     stopped.iter().for_each(|&i| back[i] = 0.0);
                     factor.solve(&mut back);
                     PARTS_OF_BEND.iter().filter_map(|&t| along(t, &back)).find(is_lower)

@@ -137,7 +137,7 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
                     let sizes = wrong.sizes.with_kinds(kinds, fine.known);
                     fitting
                         .linearised(place)
-                        .and_then(|at| data.settled(&fitting, at, sizes, [wrong.level, wrong.rest]))
+                        .and_then(|at| data.settled(&fitting, at, sizes, (wrong.level, wrong.rest)))
                 } else {
                     data.explain(&fitting, place, &ADDED_NOISE[LAST_LEVELS..])
                 };

@@ -5,10 +5,9 @@ use super::descent::Minimum;
 use super::fitting::{Fitting, Place};
 use super::kinds::Kinds;
 use super::linearised::Linearised;
-use super::measured::{
-    MAX_REST, MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, chi_squared, is_chance, log_variances,
-};
+use super::measured::{MAX_REST, MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, is_chance};
 use super::sizes::Sizes;
+use super::whitening::{Rest, Whitening};
 use crate::identify::thinned::thinned;
 use frfit_linalg::dense::Cholesky;
 
@@ -18,8 +17,8 @@ pub(super) struct Explained {
     pub(super) sizes: Sizes,
     pub(super) kinds: Kinds,
     pub(super) level: f64,
-    /// What the response has beside noise and errors, relative to itself.
-    pub(super) rest: f64,
+    /// What the response has beside noise and errors.
+    pub(super) rest: Rest,
     /// −2 ln of the evidence, up to what all explanations share.
     pub(super) evidence: f64,
 }
@@ -63,8 +62,8 @@ impl Measured<'_, '_> {
         let own = if self.known() { 1.0 } else { 0.0 };
         let (mut at, mut end) = (coarse.linearised(place)?, None);
         for added in &ADDED_NOISE[..FIRST_LEVELS] {
-            let sigma = self.sigma_at(coarse.lines, own, *added);
-            let (found, near) = coarse.descend(at, &sigma, &precision, STEPS_PER_LEVEL)?;
+            let noise = self.noise_at(coarse.lines, own, *added);
+            let (found, near) = coarse.descend(at, &noise, &precision, STEPS_PER_LEVEL)?;
             at = near;
             end = Some((found.normal.chi_squared + found.prior, found.place));
         }
@@ -82,8 +81,8 @@ impl Measured<'_, '_> {
             let stage = Fitting { lines: &lines, ..*whole };
             let mut at = stage.linearised(place)?;
             for added in ADDED_STAGE_NOISE {
-                let sigma = self.sigma_at(&lines, own, added);
-                at = stage.descend(at, &sigma, &precision, STAGE_STEPS)?.1;
+                let noise = self.noise_at(&lines, own, added);
+                at = stage.descend(at, &noise, &precision, STAGE_STEPS)?.1;
             }
             place = at.place;
         }
@@ -100,10 +99,10 @@ impl Measured<'_, '_> {
         let known = self.known();
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let numbers = self.numbers(fitting.lines) as f64;
-        let (mut at, mut level, mut rest) = (fitting.linearised(place)?, 1.0, 0.0);
+        let (mut at, mut level, mut rest) = (fitting.linearised(place)?, 1.0, Rest::NONE);
         for &added in from_above {
-            let sigma = self.sigma_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
-            let (found, near) = fitting.descend(at, &sigma, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
+            let noise = self.noise_at(fitting.lines, if known { 1.0 } else { 0.0 }, added);
+            let (found, near) = fitting.descend(at, &noise, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
             at = near;
             // What is left is larger than what would come next: with less noise, errors would only follow it.
             let is_left = found.normal.chi_squared > numbers;
@@ -111,22 +110,23 @@ impl Measured<'_, '_> {
                 level = added;
             }
             if is_left {
-                rest = added.min(MAX_REST);
+                rest = Rest { std: added.min(MAX_REST), ..Rest::NONE };
                 break;
             }
         }
-        self.settled(fitting, at, sizes, [level, rest])
+        self.settled(fitting, at, sizes, (level, rest))
     }
 
     /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
     pub(super) fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let at = fitting.linearised(place)?;
-        let (squares, numbers) = (at.squares(), self.numbers(fitting.lines) as f64);
-        let left = || chi_squared(&squares, fitting.lines.iter().map(|&line| &self.sigma[line])) / numbers;
+        let (residuals, numbers) = (at.residuals(), self.numbers(fitting.lines) as f64);
+        let sigma: Vec<Vec<f64>> = fitting.lines.iter().map(|&line| self.sigma[line].clone()).collect();
+        let left = Whitening::of_noise(sigma).chi_squared(&residuals) / numbers;
         let begin = match self.known() {
-            true => [1.0, self.rest(fitting.lines, &squares, numbers)],
-            false => [left().sqrt().max(MIN_NOISE_OVER_RESPONSE), 0.0],
+            true => (1.0, self.rest(fitting.lines, &residuals, numbers)),
+            false => (left.sqrt().max(MIN_NOISE_OVER_RESPONSE), Rest::NONE),
         };
         self.settled(fitting, at, sizes, begin)
     }
@@ -137,33 +137,33 @@ impl Measured<'_, '_> {
         fitting: &Fitting<'_, '_>,
         mut at: Linearised,
         mut sizes: Sizes,
-        [mut level, mut rest]: [f64; 2],
+        (mut level, mut rest): (f64, Rest),
     ) -> Option<Explained> {
         let known = self.known();
         let numbers = self.numbers(fitting.lines) as f64;
         // A right model has no such part.
         let has_rest = known && !fitting.shapes().is_empty();
-        rest = if has_rest { rest } else { 0.0 };
+        rest = if has_rest { rest } else { Rest::NONE };
         let mut last = None;
         for _ in 0..MAX_SIZE_ROUNDS {
-            let sigma = self.sigma_beside(fitting.lines, level, rest);
+            let whitening = self.noise_and_rest(fitting.lines, level, rest);
             let precision = fitting.precision(&sizes);
             let found;
-            (found, at) = fitting.descend(at, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
+            (found, at) = fitting.descend(at, &whitening, &precision, STEPS_AT_LAST_LEVEL)?;
             let (n, place) = (fitting.count(), &at.place);
             let whole = found.normal.with_prior(&precision);
             let factor = Cholesky::new(n, &whole).ok()?;
             let inverse = factor.inverse();
             let variance = |i: usize| inverse[i * n + i];
             let of_prior = Cholesky::new(n, &precision).ok()?.log_determinant();
-            let misfit = log_variances(&sigma) + found.normal.chi_squared + found.prior;
+            let misfit = whitening.log_determinant() + found.normal.chi_squared + found.prior;
             let evidence = misfit + factor.log_determinant() - of_prior + sizes.improbability();
             let determined: f64 =
                 (0..n).map(|i| 1.0 - precision[i * n + i] * variance(i)).map(|t| t.clamp(0.0, 1.0)).sum();
             let chi_squared = found.normal.chi_squared;
             let before = (level, sizes, rest);
             if has_rest {
-                rest = self.rest(fitting.lines, &at.squares(), (numbers - determined).max(1.0));
+                rest = self.rest(fitting.lines, &at.residuals(), (numbers - determined).max(1.0));
             }
             let same = last
                 .as_ref()
@@ -179,7 +179,8 @@ impl Measured<'_, '_> {
             sizes = fitting.shown_sizes(sizes, place, &inverse);
             let settled = |a: f64, b: f64| (a - b).abs() <= 0.03 * b;
             if settled(level, before.0)
-                && (rest - before.2).abs() <= 0.03 * rest
+                && (rest.std - before.2.std).abs() <= 0.03 * rest.std
+                && rest.length_rad_s == before.2.length_rad_s
                 && settled(sizes.frequency, before.1.frequency)
                 && settled(sizes.loss_factor, before.1.loss_factor)
                 && settled(sizes.shape, before.1.shape)
@@ -195,7 +196,7 @@ impl Measured<'_, '_> {
     pub(super) fn is_explained(&self, wrong: &Explained, lines: &[usize], usual_noise: f64) -> bool {
         let n = self.numbers(lines) as f64;
         match self.known() {
-            true => wrong.rest == 0.0 && is_chance(wrong.found.normal.chi_squared, n),
+            true => wrong.rest == Rest::NONE && is_chance(wrong.found.normal.chi_squared, n),
             false => wrong.level <= usual_noise,
         }
     }

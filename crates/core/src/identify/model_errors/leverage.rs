@@ -124,8 +124,8 @@ impl Search<'_, '_> {
     fn moved_theta(&self, fitting: &Fitting<'_, '_>, theta: &[f64], cause: Cause) -> Option<Vec<Vec<f64>>> {
         let (n, m) = (fitting.count(), theta.len());
         let level = if self.data.known() { 1.0 } else { USUAL_NOISE };
-        let sigma = self.data.sigma_at(&self.lines, level, 0.0);
-        let normal = fitting.linearised(fitting.start(theta))?.normal(&sigma, fitting.for_each)?;
+        let noise = self.data.noise_at(&self.lines, level, 0.0);
+        let normal = fitting.linearised(fitting.start(theta))?.normal(&noise, fitting.for_each)?;
         let prior = fitting.precision(&Sizes::prior(fitting.known));
         let of = |a: usize, b: usize| normal.information[a * n + b];
         let block = (0..m * m).map(|k| of(k / m, k % m) + prior[k / m * n + k % m]).collect::<Vec<f64>>();

@@ -2,6 +2,7 @@
 
 use super::fitting::{Fitting, Place, is_frequency_part};
 use super::kinds::Damping;
+use super::whitening::Whitening;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::subspace::{ErrorSlopes, ModalErrors, Projection};
@@ -35,26 +36,28 @@ pub(super) struct Linearised {
 }
 
 impl Linearised {
-    /// |u_m − x_m|² at each of the lines.
-    pub(super) fn squares(&self) -> Vec<Vec<f64>> {
-        let square = |row: &Vec<c64>| row.last().map_or(0.0, |rest| rest.norm_sqr());
-        self.rows.iter().map(|of_line| of_line.iter().map(square).collect()).collect()
+    /// u_m − x_m at each of the lines.
+    pub(super) fn residuals(&self) -> Vec<Vec<c64>> {
+        let residual = |row: &Vec<c64>| row.last().copied().unwrap_or_default();
+        self.rows.iter().map(|of_line| of_line.iter().map(residual).collect()).collect()
     }
 
-    /// −Jᵀb of the bend b = x(p + s) − x(p) − J s on the way to another place p + s, weighed by σ.
-    pub(super) fn bend(&self, other: &Self, step: &[f64], sigma: &[Vec<f64>]) -> Vec<f64> {
+    /// −Jᵀb of the bend b = x(p + s) − x(p) − J s on the way to another place p + s, both made white.
+    pub(super) fn bend(&self, other: &Self, step: &[f64], whitening: &Whitening) -> Vec<f64> {
         let mut sum = vec![0.0; self.count];
-        for ((of_line, others), sigma) in self.rows.iter().zip(&other.rows).zip(sigma) {
-            for (((row, other), coordinates), sigma) in
-                of_line.iter().zip(others).zip(&self.coordinates).zip(sigma)
-            {
-                let (Some((rest, slopes)), Some(rest_there)) = (row.split_last(), other.last()) else {
-                    continue;
-                };
-                if sigma.is_finite() {
+        for (m, coordinates) in self.coordinates.iter().enumerate() {
+            // J, then the bend.
+            let row = |k: usize| {
+                let mut row = self.rows[k][m].clone();
+                if let (Some((bend, slopes)), Some(there)) = (row.split_last_mut(), other.rows[k][m].last()) {
                     let straight: c64 =
-                        coordinates.iter().zip(slopes).map(|(&i, slope)| step[i] * slope).sum();
-                    let bend = (rest - rest_there - straight) / sigma.powi(2);
+                        coordinates.iter().zip(&*slopes).map(|(&i, slope)| step[i] * slope).sum();
+                    *bend -= there + straight;
+                }
+                row
+            };
+            for (_, row) in whitening.rows(m, row) {
+                if let Some((bend, slopes)) = row.split_last() {
                     coordinates.iter().zip(slopes).for_each(|(&i, slope)| sum[i] -= (slope.conj() * bend).re);
                 }
             }
@@ -62,25 +65,24 @@ impl Linearised {
         sum
     }
 
-    /// The normal equations; `None` where the response is not finite. σ is that of real and imaginary part each, for each of the lines.
-    pub(super) fn normal(&self, sigma: &[Vec<f64>], for_each: ForEach<'_>) -> Option<Normal> {
+    /// The normal equations; `None` where the response is not finite.
+    pub(super) fn normal(&self, whitening: &Whitening, for_each: ForEach<'_>) -> Option<Normal> {
         let n = self.count;
         let sensors = self.coordinates.len();
         let chunks = self.rows.len().min(LINE_CHUNKS);
-        // Of each sensor all products of the columns of [J r].
+        // Of each sensor the white rows of [J r], real and imaginary parts, in chunks of lines.
+        let white = |m: usize| -> Vec<Vec<f64>> {
+            let mut stacked = vec![Vec::new(); chunks];
+            for (k, row) in whitening.rows(m, |k| self.rows[k][m].clone()) {
+                stacked[k % chunks].extend(row.iter().map(|x| x.re));
+                stacked[k % chunks].extend(row.iter().map(|x| x.im));
+            }
+            stacked
+        };
+        let white = map(for_each, sensors, white);
+        // All products of their columns.
         let part = |c: usize| -> Vec<Vec<f64>> {
-            let of_sensor = |m: usize| {
-                let mut stacked = Vec::new();
-                for (row, sigma) in
-                    (c..self.rows.len()).step_by(chunks).map(|k| (&self.rows[k][m], sigma[k][m]))
-                {
-                    if sigma.is_finite() {
-                        stacked.extend(row.iter().map(|x| x.re / sigma));
-                        stacked.extend(row.iter().map(|x| x.im / sigma));
-                    }
-                }
-                times_transpose(&stacked, self.coordinates[m].len() + 1)
-            };
+            let of_sensor = |m: usize| times_transpose(&white[m][c], self.coordinates[m].len() + 1);
             (0..sensors).map(of_sensor).collect()
         };
         let mut sum = Normal { chi_squared: 0.0, gradient: vec![0.0; n], information: vec![0.0; n * n] };
@@ -243,10 +245,10 @@ mod tests {
         };
         let (from, step) = ([0.4, -0.7], [0.1, 0.2]);
         let there = near([from[0] + step[0], from[1] + step[1]]);
-        let found = near(from).bend(&there, &step, &[vec![sigma]]);
+        let found = near(from).bend(&there, &step, &Whitening::of_noise(vec![vec![sigma]]));
         // −Re(J̄ᵢ b)/σ² with b = i q s₁².
         let expected = -2.0 * q * from[0] * q * step[0].powi(2) / sigma.powi(2);
         assert!((found[0] - expected).abs() < 1e-14 && found[1].abs() < 1e-14, "{found:?} {expected}");
-        assert_eq!(near(from).bend(&there, &step, &[vec![f64::INFINITY]]), [0.0; 2]);
+        assert_eq!(near(from).bend(&there, &step, &Whitening::of_noise(vec![vec![f64::INFINITY]])), [0.0; 2]);
     }
 }

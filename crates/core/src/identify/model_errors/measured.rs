@@ -2,11 +2,11 @@
 
 use super::curve::Curves;
 use super::mesh::Coarser;
+use super::whitening::{Deviations, Rest, Whitening};
 use crate::c64;
 use crate::frfs::Noise;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MIN_DOUBTFUL_MISFIT};
 use crate::identify::local_fit::of_responses;
-use crate::identify::noise::beside;
 use crate::identify::options::ErrorSizes;
 use crate::identify::outcome::Line;
 use crate::median::median;
@@ -78,9 +78,6 @@ const MAX_ROUNDOFF_OVER_RESPONSE: f64 = 1e-5;
 /// Beside a given noise and the errors of modes, shapes and factors a response may be off by this part of itself: no model is
 /// better between resonances. What is more is not explained.
 pub(super) const MAX_REST: f64 = 0.05;
-
-/// Halvings to what is beside noise and errors: to a ten-thousandth of the most.
-const REST_HALVINGS: usize = 13;
 
 /// The residual is noise up to this number of standard deviations of χ².
 pub(super) const NOISE_CHI_SQUARED_STD: f64 = 3.0;
@@ -184,41 +181,35 @@ impl<'a> Measured<'_, 'a> {
         lines.iter().map(one).collect()
     }
 
-    /// σ of the noise at a level, with what the response has beside it.
-    pub(super) fn sigma_beside(&self, lines: &[usize], level: f64, rest: f64) -> Vec<Vec<f64>> {
-        let levels: Vec<Vec<f64>> = lines.iter().map(|&i| self.levels[i].clone()).collect();
-        beside(&self.sigma_at(lines, level, 0.0), rest, &levels)
+    /// Noise at a level, with some part of the response added.
+    pub(super) fn noise_at(&self, lines: &[usize], level: f64, added: f64) -> Whitening {
+        Whitening::of_noise(self.sigma_at(lines, level, added))
     }
 
-    /// What the response has beside a given noise, relative to itself, so that χ² is what n numbers have: none where noise leaves as much.
-    pub(super) fn rest(&self, lines: &[usize], squares: &[Vec<f64>], n: f64) -> f64 {
-        let chi_squared = |rest: f64| chi_squared(squares, &self.sigma_beside(lines, 1.0, rest));
-        if is_chance(chi_squared(0.0), n) {
-            return 0.0;
+    /// Noise at a level, with what the response has beside it.
+    pub(super) fn noise_and_rest(&self, lines: &[usize], level: f64, rest: Rest) -> Whitening {
+        self.deviations(lines, level).whitening(rest)
+    }
+
+    fn deviations(&self, lines: &[usize], level: f64) -> Deviations {
+        Deviations {
+            omegas: lines.iter().map(|&i| self.omegas[i]).collect(),
+            noise: self.sigma_at(lines, level, 0.0),
+            levels: lines.iter().map(|&i| self.levels[i].clone()).collect(),
         }
-        let (mut low, mut high) = (0.0, MAX_REST);
-        for _ in 0..REST_HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if chi_squared(middle) > n { &mut low } else { &mut high }) = middle;
-        }
-        high
+    }
+
+    /// What the response has beside a given noise: none where noise leaves these residuals of n numbers by chance.
+    pub(super) fn rest(&self, lines: &[usize], residuals: &[Vec<c64>], n: f64) -> Rest {
+        let deviations = self.deviations(lines, 1.0);
+        let is_noise = is_chance(deviations.whitening(Rest::NONE).chi_squared(residuals), n);
+        if is_noise { Rest::NONE } else { deviations.likeliest_rest(residuals, n) }
     }
 }
 
 /// Whether noise leaves this χ² of n numbers.
 pub(super) fn is_chance(chi_squared: f64, n: f64) -> bool {
     chi_squared <= n + NOISE_CHI_SQUARED_STD * (2.0 * n).sqrt()
-}
-
-/// χ² of squares with standard deviations, `[line][sensor]`; a sensor that is left out has an infinite one.
-pub(super) fn chi_squared<'s>(squares: &[Vec<f64>], sigma: impl IntoIterator<Item = &'s Vec<f64>>) -> f64 {
-    let sigma = sigma.into_iter().flatten();
-    squares.iter().flatten().zip(sigma).map(|(square, sigma)| square / (sigma * sigma)).sum()
-}
-
-/// Σ 4 ln σ, of real and imaginary parts together, of standard deviations `[line][sensor]`: what they add to −2 ln of a probability.
-pub(super) fn log_variances(sigma: &[Vec<f64>]) -> f64 {
-    sigma.iter().flatten().filter(|s| s.is_finite()).map(|s| 4.0 * s.ln()).sum()
 }
 
 pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {

@@ -19,6 +19,7 @@
 //! | `natural_spline`, `causality`, `curve` | unknowns over the band: constants, laws, smooth curves |
 //! | `mesh`, `found` | what lies between two meshes, and what is reported of errors |
 //! | `kinds`, `sizes`, `factor_prior` | kinds of errors, and what is known of their sizes before the data |
+//! | `whitening` | what noise and errors leave of a response, made white |
 //! | `measured` | what was measured, and what it says by itself |
 //! | `fitting`, `prior` | what is fitted, which coordinate is what, and what is known of it before the data |
 //! | `linearised`, `descent` | the responses near a place, and the way to a minimum |
@@ -66,6 +67,7 @@ mod sizes;
 mod small_errors;
 mod split;
 mod tuned;
+mod whitening;
 
 pub(super) use averaged::{AveragedModel, averaged_over_small_errors};
 pub(super) use curve::{Curve, Curves, Spline};

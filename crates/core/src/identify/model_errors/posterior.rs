@@ -4,7 +4,7 @@ use super::estimated::Estimated;
 use super::fit::{Explained, STEPS_AT_LAST_LEVEL};
 use super::fitting::Fitting;
 use super::local_stiffness::add_local_compliance;
-use super::measured::Measured;
+use super::measured::{MAX_REST, Measured};
 use super::mesh::MeshError;
 use super::modal_loss::add_modal_loss;
 use crate::subspace::ModalErrors;
@@ -18,9 +18,9 @@ impl Measured<'_, '_> {
         evidence: f64,
     ) -> Option<Estimated> {
         let precision = fitting.precision(&wrong.sizes.with_dependent_shapes(fitting.sensors()));
-        let sigma = self.sigma_beside(fitting.lines, wrong.level, wrong.rest);
+        let whitening = self.noise_and_rest(fitting.lines, wrong.level, wrong.rest);
         let at = fitting.linearised(wrong.found.place)?;
-        let (found, _) = fitting.descend(at, &sigma, &precision, STEPS_AT_LAST_LEVEL)?;
+        let (found, _) = fitting.descend(at, &whitening, &precision, STEPS_AT_LAST_LEVEL)?;
         let whole = found.normal.with_prior(&precision);
         let inverse = Cholesky::new(fitting.count(), &whole).ok()?.inverse();
         let sizes = wrong.sizes;
@@ -81,7 +81,7 @@ impl Measured<'_, '_> {
             chi_squared: found.normal.chi_squared,
             numbers: self.numbers(fitting.lines),
             level,
-            rest,
+            rest: rest.std.min(MAX_REST),
             evidence: 0.0,
             kinds: fitting.kinds,
             highest_rad_s: fitting.highest_rad_s,

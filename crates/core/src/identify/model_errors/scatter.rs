@@ -2,7 +2,7 @@
 
 use super::band_search::Search;
 use super::fit::Explained;
-use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured, log_variances};
+use super::measured::{MIN_NOISE_OVER_RESPONSE, Measured};
 use crate::c64;
 use frfit_linalg::dense::Cholesky;
 
@@ -48,8 +48,7 @@ impl Measured<'_, '_> {
             false if free > 0.0 => (misfit / free).sqrt().clamp(MIN_NOISE_OVER_RESPONSE, level),
             false => level,
         };
-        let sigma = self.sigma_at(lines, own, 0.0);
-        let logs = log_variances(&sigma);
+        let logs = self.noise_at(lines, own, 0.0).log_determinant();
         let at_own = own / self.level_per_frequency.unwrap_or(own);
         let least = |prior: Vec<f64>| {
             let of = |s: f64| self.about_curves((search, right), &estimates, (share, at_own), &prior, s);

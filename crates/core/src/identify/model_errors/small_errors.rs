@@ -95,8 +95,8 @@ impl<'t, 'a> About<'t, 'a> {
         let of_right = whole.coordinates_of(given);
         let mut place = whole.start(&right.found.place[..whole.curves.count()]);
         of_right.iter().zip(&right.found.place).for_each(|(&i, value)| place[i] = *value);
-        let sigma = data.sigma_at(whole.lines, right.level, 0.0);
-        let normal = whole.linearised(place.clone())?.normal(&sigma, whole.for_each)?;
+        let noise = data.noise_at(whole.lines, right.level, 0.0);
+        let normal = whole.linearised(place.clone())?.normal(&noise, whole.for_each)?;
         Some(Self { whole, right, of_right, place, normal })
     }
 
