@@ -5,6 +5,7 @@ use super::natural_spline::bends;
 use crate::c64;
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::form::Form;
+use crate::laws::LawKind;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -300,6 +301,14 @@ impl Curves {
     /// The unknowns that are smooth curves: a frequency may have a value of its own of them.
     pub(super) fn smooth(&self) -> Vec<usize> {
         (0..self.each.len()).filter(|&j| matches!(self.each[j].0, Curve::Spline(_))).collect()
+    }
+
+    /// Whether an unknown is the same at all frequencies.
+    pub(super) fn is_constant(&self, unknown: usize) -> bool {
+        match &self.each[unknown].0 {
+            Curve::Form(form) => form.kind().is_none_or(|kind| kind == LawKind::Constant),
+            Curve::Spline(_) => false,
+        }
     }
 
     /// Whether a smooth curve stands beside other unknowns.

@@ -1,11 +1,15 @@
 //! The search for errors with which the model explains a band.
 
 use super::band_search::Search;
+use super::estimated::Estimated;
 use super::fit::{ADDED_NOISE, Explained, FIRST_LEVELS, Fit, RIGHT_MODEL_NATS};
 use super::fitting::{Fitting, Place};
 use super::kinds::Kinds;
 use super::measured::{SAME_START, distance};
+use super::paired::ByModes;
 use crate::subspace::{Modes, Projection};
+use std::cell::OnceCell;
+use std::f64::consts::TAU;
 
 /// The first level of added noise where coordinates were tried one by one: more would let go what was found.
 const TUNED_LEVELS: usize = 2;
@@ -26,6 +30,7 @@ pub(super) struct ErrorSearch<'f, 't, 'a> {
     coarse: Fitting<'f, 'a>,
     /// The most that noise leaves where it is not given.
     usual_noise: f64,
+    by_modes: OnceCell<Option<ByModes>>,
 }
 
 impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
@@ -41,6 +46,7 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
             whole: search.fitting(model, modes, &search.lines),
             coarse: Fitting { free_nodes: false, ..search.fitting(model, modes, &search.some) },
             usual_noise: search.data.usual_noise(),
+            by_modes: OnceCell::new(),
         }
     }
 
@@ -64,11 +70,28 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// From where modes have the places of those of the measurement.
     fn paired(&self) -> Option<Explained> {
-        let Search { data, curves, .. } = *self.search;
+        let data = self.search.data;
         let used = |line: usize, sensor: usize| self.is_used(line, sensor);
-        let place = self.search.paired(&self.whole, &curves.straight(&self.starts[0]), &used)?;
+        let place = self.search.at_partners(self.by_modes()?, &self.whole, &used)?;
         let settled: Fit<'_> = &|fitting, place| data.settled_near(fitting, place);
         self.search.near(place, Kinds::STIFFNESS, settled)
+    }
+
+    /// The unknowns by the modes of the measurement.
+    fn by_modes(&self) -> Option<&ByModes> {
+        let start = || self.search.curves.straight(&self.starts[0]);
+        self.by_modes.get_or_init(|| self.search.by_modes(&start())).as_ref()
+    }
+
+    /// Whether constant stiffnesses are where natural frequencies do not have them.
+    pub(super) fn contradicts_modes(&self, estimated: &Estimated) -> bool {
+        let std = |unknown: usize, line: usize| -> Option<f64> {
+            let [variance, ..] =
+                estimated.covariance_at(unknown, line, self.search.data.omegas[line] / TAU)?;
+            Some(variance.max(0.0).sqrt())
+        };
+        let contradicts = |by_modes| self.search.contradicts(by_modes, estimated.theta(), &std);
+        self.by_modes().is_some_and(contradicts)
     }
 
     /// With masses at the sensors.
@@ -149,7 +172,7 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
     }
 
     /// Whether the residual is noise.
-    fn is_explained(&self, wrong: &Explained) -> bool {
+    pub(super) fn is_explained(&self, wrong: &Explained) -> bool {
         self.search.data.is_explained(wrong, &self.search.lines, self.usual_noise)
     }
 

@@ -87,7 +87,9 @@ fn explanation(search: &Search<'_, '_>, starts: &[Vec<f64>]) -> Option<Explanati
         return Some(Explanation::OtherModel);
     }
     // The model is not right, and its errors have no covariance, so that the modulus has no error bars.
-    let Some(estimated) = data.posterior(&fine, wrong, evidence) else {
+    let is_explained = errors.is_explained(&wrong);
+    let is_of_modes = |estimated: &Estimated| is_explained || !errors.contradicts_modes(estimated);
+    let Some(estimated) = data.posterior(&fine, wrong, evidence).filter(is_of_modes) else {
         return Some(Explanation::OtherModel);
     };
     Some(Explanation::Errors(Box::new(Estimated { modes: search.modes.clone(), ..estimated })))

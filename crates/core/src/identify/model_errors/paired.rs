@@ -3,7 +3,7 @@
 //! A mode that is off by many half-widths has no slope towards its place. A rational fit of the responses shows that place whatever the model is.
 
 use super::band_search::Search;
-use super::fitting::{Fitting, Place};
+use super::fitting::{Fitting, Place, middle};
 use super::tuned::MAX_SHARE;
 use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
@@ -33,6 +33,13 @@ const MIN_LOSS_FACTOR_RATIO: f64 = 0.1;
 const DEGREES_OF_FREEDOM: f64 = 4.0;
 const WEIGHT_ROUNDS: usize = 4;
 
+/// Natural frequencies say where an unknown is if its standard deviation by them is less than this, in its logarithm: half of what was assumed.
+const KNOWN_LOG_STD: f64 = 0.5 * LOG_FACTOR_STD;
+
+/// A stiffness is no farther from where natural frequencies have it than so many standard deviations of both. These also hold what errors have in common, which is the same
+/// in both.
+const MAX_DEVIATIONS: f64 = 1.5;
+
 /// A mode of the model and its partner.
 struct PairOfModes {
     /// What of its strain energy is in each unknown.
@@ -50,15 +57,20 @@ impl PairOfModes {
     }
 }
 
+/// Unknown stiffnesses by the natural frequencies of the measurement, and its modes with their partners.
+pub(super) struct ByModes {
+    /// θ there.
+    pub(super) theta: Vec<f64>,
+    /// Standard deviation of ln p of each unknown stiffness, by the pairs alone.
+    pub(super) log_stds: Vec<f64>,
+    pairs: Vec<Pair>,
+    sensors: Vec<usize>,
+    measured: Vec<PairedShape>,
+}
+
 impl Search<'_, '_> {
-    /// From a start to where each mode that has a partner in the measurement has its natural frequency and its residues, and the unknowns the damping.
-    /// Natural frequencies without a partner are tried all over their range. `None` where there are too few pairs.
-    pub(super) fn paired(
-        &self,
-        fitting: &Fitting<'_, '_>,
-        start: &[f64],
-        used: &dyn Fn(usize, usize) -> bool,
-    ) -> Option<Place> {
+    /// The unknowns by the modes of the measurement. `None` where too few of them have a partner.
+    pub(super) fn by_modes(&self, start: &[f64]) -> Option<ByModes> {
         let ShownModes { sensors, modes: measured } = self.shown_modes()?;
         let residues = |mode: &MeasuredMode| PairedShape {
             frequency_hz: mode.frequency_hz(),
@@ -66,12 +78,10 @@ impl Search<'_, '_> {
             energy_share: 1.0,
         };
         let of_measured: Vec<PairedShape> = measured.iter().map(residues).collect();
-        let elastic: Vec<usize> = (0..fitting.modes()).filter(|&i| self.modes.omega_rad_s[i] > 0.0).collect();
-        let of_model = |theta: &[f64]| -> Option<Vec<PairedShape>> {
-            elastic.iter().map(|&mode| self.mode(mode, theta, &sensors)).collect()
-        };
+        let elastic = self.elastic();
         let mut theta = start.to_vec();
-        let mut pairing = paired(&of_model(&theta)?, &of_measured);
+        let mut log_stds = Vec::new();
+        let mut pairing = paired(&self.shapes(&theta, &sensors)?, &of_measured);
         // A single unknown is where the common factor says.
         for _ in 0..if self.stiffnesses.len() > 1 { PAIRING_ROUNDS } else { 1 } {
             if pairing.pairs.len() < MIN_PAIRS {
@@ -83,46 +93,97 @@ impl Search<'_, '_> {
                 loss_factor: 2.0 * measured[pair.measured].damping_ratio(),
             };
             let pairs: Vec<PairOfModes> = pairing.pairs.iter().map(of_pair).collect();
-            self.move_to(&mut theta, &pairs, pairing.stiffness_factor.ln());
-            pairing = paired(&of_model(&theta)?, &of_measured);
+            log_stds = self.move_to(&mut theta, &pairs, pairing.stiffness_factor.ln())?;
+            pairing = paired(&self.shapes(&theta, &sensors)?, &of_measured);
         }
         self.curves.keep_within_bounds(&mut theta);
-        let scaled = of_model(&theta)?;
-        let mut place = fitting.start(&theta);
-        for pair in &pairing.pairs {
-            let pair_of_modes = (&scaled[pair.model], &of_measured[pair.measured]);
-            self.set_to_partner(&mut place, fitting, (elastic[pair.model], &sensors), pair_of_modes);
+        Some(ByModes { theta, log_stds, pairs: pairing.pairs, sensors, measured: of_measured })
+    }
+
+    /// Where each mode that has a partner in the measurement has its natural frequency and its residues, and the unknowns the damping.
+    /// Natural frequencies without a partner are tried all over their range.
+    pub(super) fn at_partners(
+        &self,
+        ByModes { theta, pairs, sensors, measured, .. }: &ByModes,
+        fitting: &Fitting<'_, '_>,
+        used: &dyn Fn(usize, usize) -> bool,
+    ) -> Option<Place> {
+        let (elastic, scaled) = (self.elastic(), self.shapes(theta, sensors)?);
+        let mut place = fitting.start(theta);
+        for pair in pairs {
+            let pair_of_modes = (&scaled[pair.model], &measured[pair.measured]);
+            self.set_to_partner(&mut place, fitting, (elastic[pair.model], sensors), pair_of_modes);
         }
         let is_alone = |mode: &usize| {
             self.modes.omega_rad_s[*mode] <= fitting.highest_rad_s
-                && pairing.pairs.iter().all(|pair| elastic[pair.model] != *mode)
+                && pairs.iter().all(|pair| elastic[pair.model] != *mode)
         };
         let alone: Vec<usize> = elastic.iter().copied().filter(is_alone).collect();
         fitting.with_best_frequencies_of(place, &alone, used)
     }
 
+    /// Whether constant stiffnesses are where natural frequencies do not have them. `std` is the standard deviation of the real part of each unknown at a line.
+    ///
+    /// Where neither noise nor errors explain the responses, other places may follow what the model lacks. Natural frequencies hardly depend on that.
+    ///
+    /// # Limits
+    /// Those of wide modes, and of an unknown that varies over the band, say too little.
+    pub(super) fn contradicts(
+        &self,
+        by_modes: &ByModes,
+        theta: &[f64],
+        std: &dyn Fn(usize, usize) -> Option<f64>,
+    ) -> bool {
+        let line = middle(&self.lines);
+        let real = |theta: &[f64], unknown: usize| -> Option<f64> {
+            Some(self.curves.values(theta, line, self.data.omegas[line])?.0[unknown].re)
+        };
+        let is_far = |(&unknown, log_std): (&usize, &f64)| -> Option<bool> {
+            let (found, by_modes) = (real(theta, unknown)?, real(&by_modes.theta, unknown)?);
+            let of_both = (std(unknown, line)? / found).hypot(*log_std);
+            Some((found / by_modes).ln().abs() > MAX_DEVIATIONS * of_both)
+        };
+        let each = self.stiffnesses.iter().zip(&by_modes.log_stds);
+        let mut known =
+            each.filter(|(unknown, std)| self.curves.is_constant(**unknown) && **std < KNOWN_LOG_STD);
+        known.any(|one| is_far(one).unwrap_or(false))
+    }
+
     /// Moves unknown stiffnesses to where natural frequencies and loss factors of pairs differ least. By Rayleigh's quotient an unknown with the share w of the strain energy of
     /// a mode changes ln ω by w/2 of the change of ln p, and the loss factor of the mode is Σ w η. `common` is ln of the factor on all of them with which the pairs fit best.
-    fn move_to(&self, theta: &mut [f64], pairs: &[PairOfModes], common: f64) {
-        let own = |rest: &dyn Fn(&PairOfModes) -> f64, apart: [f64; 2]| -> Vec<f64> {
+    /// Returns the standard deviations of ln p.
+    fn move_to(&self, theta: &mut [f64], pairs: &[PairOfModes], common: f64) -> Option<Vec<f64>> {
+        let is_single = self.stiffnesses.len() == 1;
+        let own = |rest: &dyn Fn(&PairOfModes) -> f64, apart: [f64; 2]| -> Option<(Vec<f64>, Vec<f64>)> {
             let rests: Vec<f64> = pairs.iter().map(rest).collect();
-            let found = if self.stiffnesses.len() > 1 { differences(pairs, &rests, apart) } else { None };
-            found.unwrap_or_else(|| vec![0.0; self.stiffnesses.len()])
+            let (found, stds) = differences(pairs, &rests, apart)?;
+            Some((if is_single { vec![0.0] } else { found }, stds))
         };
         let apart = [2.0 * LOG_FREQUENCY_STD, LOG_FACTOR_STD];
-        let factors = own(&|pair| 2.0 * pair.log_ratio - pair.share() * common, apart);
+        let (factors, log_stds) = own(&|pair| 2.0 * pair.log_ratio - pair.share() * common, apart)?;
         for (&unknown, factor) in self.stiffnesses.iter().zip(factors) {
             self.curves.scale(theta, unknown, common + factor);
         }
         let of_unknowns = pairs.iter().filter(|pair| pair.share() > MIN_ENERGY_SHARE);
         let usual = median(of_unknowns.map(|pair| pair.loss_factor / pair.share()).collect());
-        let Some(usual) = usual else { return };
-        let loss_factors =
-            own(&|pair| pair.loss_factor - pair.share() * usual, [LOSS_FACTOR_STD * usual, usual]);
+        let Some(usual) = usual else { return Some(log_stds) };
+        let apart = [LOSS_FACTOR_STD * usual, usual];
+        let (loss_factors, _) = own(&|pair| pair.loss_factor - pair.share() * usual, apart)?;
         for (&unknown, loss_factor) in self.stiffnesses.iter().zip(loss_factors) {
             let loss_factor = (usual + loss_factor).max(MIN_LOSS_FACTOR_RATIO * usual);
             self.curves.set_loss_factor(theta, unknown, loss_factor);
         }
+        Some(log_stds)
+    }
+
+    /// Modes with stiffness.
+    fn elastic(&self) -> Vec<usize> {
+        (0..self.modes.omega_rad_s.len()).filter(|&i| self.modes.omega_rad_s[i] > 0.0).collect()
+    }
+
+    /// These modes with other values of the unknowns.
+    fn shapes(&self, theta: &[f64], sensors: &[usize]) -> Option<Vec<PairedShape>> {
+        self.elastic().into_iter().map(|mode| self.mode(mode, theta, sensors)).collect()
     }
 
     /// What of the strain energy of a mode is in each unknown stiffness.
@@ -185,10 +246,10 @@ impl Search<'_, '_> {
     }
 }
 
-/// x with least Σ (r − Σ w x)²/s² + Σ x²/t², of pairs with shares w, whose rests r have Student's distribution; s and t are standard deviations.
-fn differences(pairs: &[PairOfModes], rests: &[f64], [s, t]: [f64; 2]) -> Option<Vec<f64>> {
+/// x with least Σ (r − Σ w x)²/s² + Σ x²/t², of pairs with shares w, whose rests r have Student's distribution, and the standard deviations of x. s and t are standard deviations.
+fn differences(pairs: &[PairOfModes], rests: &[f64], [s, t]: [f64; 2]) -> Option<(Vec<f64>, Vec<f64>)> {
     let n = pairs.first()?.shares.len();
-    let mut x = vec![0.0; n];
+    let (mut x, mut stds) = (vec![0.0; n], vec![t; n]);
     for _ in 0..WEIGHT_ROUNDS {
         let mut matrix = vec![0.0; n * n];
         (0..n).for_each(|i| matrix[i * n + i] = 1.0 / (t * t));
@@ -201,10 +262,12 @@ fn differences(pairs: &[PairOfModes], rests: &[f64], [s, t]: [f64; 2]) -> Option
                 (0..n).for_each(|j| matrix[i * n + j] += weight * shares[i] * shares[j]);
             }
         }
-        Cholesky::new(n, &matrix).ok()?.solve(&mut right);
+        let factor = Cholesky::new(n, &matrix).ok()?;
+        factor.solve(&mut right);
         x = right;
+        stds = factor.inverse().iter().step_by(n + 1).map(|variance| variance.sqrt()).collect();
     }
-    Some(x)
+    Some((x, stds))
 }
 
 #[cfg(test)]
@@ -221,7 +284,8 @@ mod tests {
         let right = |pair: &PairOfModes| pair.shares.iter().zip(truth).map(|(w, x)| w * x).sum();
         let mut rests: Vec<f64> = pairs.iter().map(right).collect();
         rests[2] += 0.4;
-        let found = differences(&pairs, &rests, [0.04, 0.5]).unwrap();
+        let (found, stds) = differences(&pairs, &rests, [0.04, 0.5]).unwrap();
+        assert!(stds.iter().all(|std| (0.02..0.06).contains(std)), "{stds:?}");
         let off = found.iter().zip(truth).map(|(x, truth)| (x - truth).abs()).fold(0.0, f64::max);
         assert!(off < 0.02, "{found:?}");
     }
