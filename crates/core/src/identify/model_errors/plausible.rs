@@ -25,11 +25,7 @@ impl Fitting<'_, '_> {
     pub(super) fn are_small(&self, place: &[f64]) -> bool {
         let given = self.known.given;
         let errors = self.errors(place);
-        let is_in_band = |&i: &usize| {
-            let omega = self.modes.omega_rad_s[i];
-            omega > 0.0 && omega <= self.highest_rad_s
-        };
-        let in_band: Vec<usize> = (0..self.modes()).filter(is_in_band).collect();
+        let in_band = self.modes_of_band();
         let square = |of: &dyn Fn(usize) -> f64| {
             in_band.iter().map(|&i| of(i).powi(2)).sum::<f64>() / in_band.len().max(1) as f64
         };

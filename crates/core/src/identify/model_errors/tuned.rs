@@ -92,10 +92,7 @@ impl Fitting<'_, '_> {
     }
 
     fn with_best_frequencies(&self, place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
-        let omega = &self.modes.omega_rad_s;
-        let in_band = |&i: &usize| omega[i] > 0.0 && omega[i] <= self.highest_rad_s;
-        let modes: Vec<usize> = (0..self.modes()).filter(in_band).collect();
-        self.with_best_frequencies_of(place, &modes, used)
+        self.with_best_frequencies_of(place, &self.modes_of_band(), used)
     }
 
     pub(super) fn with_best_frequencies_of(
@@ -105,11 +102,10 @@ impl Fitting<'_, '_> {
         used: &dyn Fn(usize, usize) -> bool,
     ) -> Option<Place> {
         let omega = &self.modes.omega_rad_s;
-        let in_band = |&i: &usize| omega[i] > 0.0 && omega[i] <= self.highest_rad_s;
-        let modes: Vec<usize> = (0..self.modes()).filter(in_band).collect();
+        let of_band = self.modes_of_band();
         for &mode in wanted {
             // Where lines are far apart those up to the next mode say where this one is.
-            let others = modes.iter().filter(|&&other| omega[other] != omega[mode]);
+            let others = of_band.iter().filter(|&&other| omega[other] != omega[mode]);
             let gap = others.map(|&other| (omega[other] / omega[mode] - 1.0).abs()).fold(1.0, f64::min);
             let near =
                 |&line: &usize| (self.omegas[line] / omega[mode] - 1.0).abs() <= gap.max(FREQUENCY_RANGE);
