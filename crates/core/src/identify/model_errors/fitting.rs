@@ -338,14 +338,11 @@ impl Fitting<'_, '_> {
         }
     }
 
-    /// Elastic modes with natural frequencies in the band.
-    pub(super) fn modes_of_band(&self) -> Vec<usize> {
-        let lowest_rad_s = self.omegas.iter().copied().find(|omega| *omega > 0.0).unwrap_or(0.0);
-        let is_in_band = |&mode: &usize| {
-            let omega = self.modes.omega_rad_s[mode];
-            omega > 0.0 && (lowest_rad_s..=self.highest_rad_s).contains(&omega)
-        };
-        (0..self.modes()).filter(is_in_band).collect()
+    /// Elastic modes up to the end of the band: the responses show those below it too.
+    pub(super) fn modes_up_to_band(&self) -> Vec<usize> {
+        let is_elastic = |&mode: &usize| self.modes.omega_rad_s[mode] > 0.0;
+        let is_up_to_band = |&mode: &usize| self.modes.omega_rad_s[mode] <= self.highest_rad_s;
+        (0..self.modes()).filter(is_elastic).filter(is_up_to_band).collect()
     }
 
     /// The lines below the gap over the first mode, or over some modes more, up to all.

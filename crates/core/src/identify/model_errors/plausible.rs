@@ -25,15 +25,15 @@ impl Fitting<'_, '_> {
     pub(super) fn are_small(&self, place: &[f64]) -> bool {
         let given = self.known.given;
         let errors = self.errors(place);
-        let in_band = self.modes_of_band();
+        let modes = self.modes_up_to_band();
         let square = |of: &dyn Fn(usize) -> f64| {
-            in_band.iter().map(|&i| of(i).powi(2)).sum::<f64>() / in_band.len().max(1) as f64
+            modes.iter().map(|&i| of(i).powi(2)).sum::<f64>() / modes.len().max(1) as f64
         };
         let frequency = |i: usize| -> f64 {
             errors.scale + self.modes.frequency_errors(i).map(|error| errors.stiffness[error]).sum::<f64>()
         };
         let share = |i: usize| self.modes.share_of_unknown(i);
-        let sum = |of: &dyn Fn(usize) -> f64| in_band.iter().map(|&i| of(i)).sum::<f64>();
+        let sum = |of: &dyn Fn(usize) -> f64| modes.iter().map(|&i| of(i)).sum::<f64>();
         let squares = sum(&|i| share(i) * share(i));
         let size = if squares > 0.0 { sum(&|i| share(i) * frequency(i)) / squares } else { 0.0 };
         let size = size.clamp(-MAX_COMMON_ERROR, MAX_COMMON_ERROR);

@@ -76,7 +76,9 @@ impl Fitting<'_, '_> {
 
     /// The mean error of the shapes of the band at each place whose scale is unknown, as coordinates with their weights: the scale is what they have in common.
     fn means_of_shapes(&self) -> Vec<Vec<(usize, f64)>> {
-        let in_band = self.modes_of_band();
+        let lowest_rad_s = self.omegas.iter().copied().find(|omega| *omega > 0.0).unwrap_or(0.0);
+        let is_in_band = |&mode: &usize| self.modes.omega_rad_s[mode] >= lowest_rad_s;
+        let in_band: Vec<usize> = self.modes_up_to_band().into_iter().filter(is_in_band).collect();
         let mean = |first: usize| {
             let weights = in_band.iter().map(|&mode| (first + mode, 1.0 / self.growth(first + mode)));
             let all: f64 = weights.clone().map(|(_, weight)| weight).sum();

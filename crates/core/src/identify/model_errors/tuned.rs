@@ -92,7 +92,7 @@ impl Fitting<'_, '_> {
     }
 
     fn with_best_frequencies(&self, place: Place, used: &dyn Fn(usize, usize) -> bool) -> Option<Place> {
-        self.with_best_frequencies_of(place, &self.modes_of_band(), used)
+        self.with_best_frequencies_of(place, &self.modes_up_to_band(), used)
     }
 
     pub(super) fn with_best_frequencies_of(
@@ -102,10 +102,10 @@ impl Fitting<'_, '_> {
         used: &dyn Fn(usize, usize) -> bool,
     ) -> Option<Place> {
         let omega = &self.modes.omega_rad_s;
-        let of_band = self.modes_of_band();
+        let up_to_band = self.modes_up_to_band();
         for &mode in wanted {
             // Where lines are far apart those up to the next mode say where this one is.
-            let others = of_band.iter().filter(|&&other| omega[other] != omega[mode]);
+            let others = up_to_band.iter().filter(|&&other| omega[other] != omega[mode]);
             let gap = others.map(|&other| (omega[other] / omega[mode] - 1.0).abs()).fold(1.0, f64::min);
             let near =
                 |&line: &usize| (self.omegas[line] / omega[mode] - 1.0).abs() <= gap.max(FREQUENCY_RANGE);
