@@ -458,7 +458,7 @@ impl Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{LawKind, Parametrization};
+    use crate::laws::Parametrization;
 
     /// Cubics with no bend at the ends are their own natural splines; slopes are those of finite differences.
     #[test]

@@ -3,7 +3,7 @@
 use super::band_search::Search;
 use super::estimated::Estimated;
 use super::fit::{ADDED_NOISE, Explained, FIRST_LEVELS, Fit, RIGHT_MODEL_NATS};
-use super::fitting::{Fitting, Place};
+use super::fitting::{Fitting, Place, middle};
 use super::kinds::Kinds;
 use super::measured::{SAME_START, distance};
 use super::paired::ByModes;
@@ -20,6 +20,10 @@ const LAST_LEVELS: usize = 5;
 /// Starts with more mismatch over the least of all are far from the answer.
 const MAX_MISMATCH_OVER_LEAST: f64 = 1.2;
 
+/// A stiffness is no farther from where natural frequencies have it than so many standard deviations of both. These also hold what errors have in common, which is the same
+/// in both.
+const MAX_DEVIATIONS: f64 = 1.5;
+
 /// A search from several starts.
 pub(super) struct ErrorSearch<'f, 't, 'a> {
     search: &'f Search<'t, 'a>,
@@ -30,6 +34,7 @@ pub(super) struct ErrorSearch<'f, 't, 'a> {
     coarse: Fitting<'f, 'a>,
     /// The most that noise leaves where it is not given.
     usual_noise: f64,
+    /// The unknowns by the modes of the measurement, once they were asked for.
     by_modes: OnceCell<Option<ByModes>>,
 }
 
@@ -84,14 +89,19 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
     }
 
     /// Whether constant stiffnesses are where natural frequencies do not have them.
+    ///
+    /// Where neither noise nor errors explain the responses, other places may follow what the model lacks. Natural frequencies hardly depend on that.
     pub(super) fn contradicts_modes(&self, estimated: &Estimated) -> bool {
-        let std = |unknown: usize, line: usize| -> Option<f64> {
-            let [variance, ..] =
-                estimated.covariance_at(unknown, line, self.search.data.omegas[line] / TAU)?;
-            Some(variance.max(0.0).sqrt())
+        let line = middle(&self.search.lines);
+        let frequency_hz = self.search.data.omegas[line] / TAU;
+        let is_far = |&(unknown, by_modes, log_std): &(usize, f64, f64)| -> Option<bool> {
+            let found = estimated.values(line, frequency_hz)?[unknown].re;
+            let [variance, ..] = estimated.covariance_at(unknown, line, frequency_hz)?;
+            let of_both = (variance.max(0.0).sqrt() / found).hypot(log_std);
+            Some((found / by_modes).ln().abs() > MAX_DEVIATIONS * of_both)
         };
-        let contradicts = |by_modes| self.search.contradicts(by_modes, estimated.theta(), &std);
-        self.by_modes().is_some_and(contradicts)
+        let mut constants = self.by_modes().into_iter().flat_map(|by_modes| &by_modes.constants);
+        constants.any(|one| is_far(one).unwrap_or(false))
     }
 
     /// With masses at the sensors.

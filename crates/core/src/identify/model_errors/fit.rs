@@ -122,11 +122,12 @@ impl Measured<'_, '_> {
         let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
         let at = fitting.linearised(place)?;
         let (residuals, numbers) = (at.residuals(), self.numbers(fitting.lines) as f64);
-        let sigma: Vec<Vec<f64>> = fitting.lines.iter().map(|&line| self.sigma[line].clone()).collect();
-        let left = Whitening::of_noise(sigma).chi_squared(&residuals) / numbers;
-        let begin = match self.known() {
-            true => (1.0, self.rest(fitting.lines, &residuals, numbers)),
-            false => (left.sqrt().max(MIN_NOISE_OVER_RESPONSE), Rest::NONE),
+        let begin = if self.known() {
+            (1.0, self.rest(fitting.lines, &residuals, numbers))
+        } else {
+            let sigma = fitting.lines.iter().map(|&line| self.sigma[line].clone()).collect();
+            let left = Whitening::of_noise(sigma).chi_squared(&residuals) / numbers;
+            (left.sqrt().max(MIN_NOISE_OVER_RESPONSE), Rest::NONE)
         };
         self.settled(fitting, at, sizes, begin)
     }

@@ -36,10 +36,6 @@ const WEIGHT_ROUNDS: usize = 4;
 /// Natural frequencies say where an unknown is if its standard deviation by them is less than this, in its logarithm: half of what was assumed.
 const KNOWN_LOG_STD: f64 = 0.5 * LOG_FACTOR_STD;
 
-/// A stiffness is no farther from where natural frequencies have it than so many standard deviations of both. These also hold what errors have in common, which is the same
-/// in both.
-const MAX_DEVIATIONS: f64 = 1.5;
-
 /// A mode of the model and its partner.
 struct PairOfModes {
     /// What of its strain energy is in each unknown.
@@ -60,9 +56,9 @@ impl PairOfModes {
 /// Unknown stiffnesses by the natural frequencies of the measurement, and its modes with their partners.
 pub(super) struct ByModes {
     /// θ there.
-    pub(super) theta: Vec<f64>,
-    /// Standard deviation of ln p of each unknown stiffness, by the pairs alone.
-    pub(super) log_stds: Vec<f64>,
+    theta: Vec<f64>,
+    /// Of constant stiffnesses that the pairs determine: which, p, and the standard deviation of ln p. Wide modes, and an unknown that varies over the band, say too little.
+    pub(super) constants: Vec<(usize, f64, f64)>,
     pairs: Vec<Pair>,
     sensors: Vec<usize>,
     measured: Vec<PairedShape>,
@@ -97,7 +93,12 @@ impl Search<'_, '_> {
             pairing = paired(&self.shapes(&theta, &sensors)?, &of_measured);
         }
         self.curves.keep_within_bounds(&mut theta);
-        Some(ByModes { theta, log_stds, pairs: pairing.pairs, sensors, measured: of_measured })
+        let line = middle(&self.lines);
+        let (values, _) = self.curves.values(&theta, line, self.data.omegas[line])?;
+        let each = self.stiffnesses.iter().zip(log_stds);
+        let known = each.filter(|(unknown, std)| self.curves.is_constant(**unknown) && *std < KNOWN_LOG_STD);
+        let constants = known.map(|(&unknown, std)| (unknown, values[unknown].re, std)).collect();
+        Some(ByModes { theta, constants, pairs: pairing.pairs, sensors, measured: of_measured })
     }
 
     /// Where each mode that has a partner in the measurement has its natural frequency and its residues, and the unknowns the damping.
@@ -114,39 +115,9 @@ impl Search<'_, '_> {
             let pair_of_modes = (&scaled[pair.model], &measured[pair.measured]);
             self.set_to_partner(&mut place, fitting, (elastic[pair.model], sensors), pair_of_modes);
         }
-        let is_alone = |mode: &usize| {
-            self.modes.omega_rad_s[*mode] <= fitting.highest_rad_s
-                && pairs.iter().all(|pair| elastic[pair.model] != *mode)
-        };
-        let alone: Vec<usize> = elastic.iter().copied().filter(is_alone).collect();
+        let is_alone = |mode: &usize| pairs.iter().all(|pair| elastic[pair.model] != *mode);
+        let alone: Vec<usize> = fitting.modes_up_to_band().into_iter().filter(is_alone).collect();
         fitting.with_best_frequencies_of(place, &alone, used)
-    }
-
-    /// Whether constant stiffnesses are where natural frequencies do not have them. `std` is the standard deviation of the real part of each unknown at a line.
-    ///
-    /// Where neither noise nor errors explain the responses, other places may follow what the model lacks. Natural frequencies hardly depend on that.
-    ///
-    /// # Limits
-    /// Those of wide modes, and of an unknown that varies over the band, say too little.
-    pub(super) fn contradicts(
-        &self,
-        by_modes: &ByModes,
-        theta: &[f64],
-        std: &dyn Fn(usize, usize) -> Option<f64>,
-    ) -> bool {
-        let line = middle(&self.lines);
-        let real = |theta: &[f64], unknown: usize| -> Option<f64> {
-            Some(self.curves.values(theta, line, self.data.omegas[line])?.0[unknown].re)
-        };
-        let is_far = |(&unknown, log_std): (&usize, &f64)| -> Option<bool> {
-            let (found, by_modes) = (real(theta, unknown)?, real(&by_modes.theta, unknown)?);
-            let of_both = (std(unknown, line)? / found).hypot(*log_std);
-            Some((found / by_modes).ln().abs() > MAX_DEVIATIONS * of_both)
-        };
-        let each = self.stiffnesses.iter().zip(&by_modes.log_stds);
-        let mut known =
-            each.filter(|(unknown, std)| self.curves.is_constant(**unknown) && **std < KNOWN_LOG_STD);
-        known.any(|one| is_far(one).unwrap_or(false))
     }
 
     /// Moves unknown stiffnesses to where natural frequencies and loss factors of pairs differ least. By Rayleigh's quotient an unknown with the share w of the strain energy of
