@@ -179,7 +179,8 @@ impl Explanation {
 
     /// Whether it needs a factor without a name: with a second fault beside it, that fits too much.
     fn has_unnamed_factor(&self) -> bool {
-        self.edits.iter().any(|edit| edit.change == Change::Factor) && self.known_factor(0.0).is_none()
+        let least_std = self.fitted.misfit.sigma / (self.fitted.values.max(1) as f64).sqrt();
+        self.edits.iter().any(|edit| edit.change == Change::Factor) && self.known_factor(least_std).is_none()
     }
 
     /// Whether it has all faults of another one but its k-th.
@@ -352,8 +353,16 @@ mod tests {
         let misfit = Misfit { nats, sigma: own[0].min(own[1]) };
         // A factor has a name: in g.
         let ln_factor = KnownFactor::StandardGravity.value().ln();
-        let fitted =
-            Fitted { moduli, ln_factor, delay_s: 0.0, delay_phase_rad: 0.0, misfit, own: own.to_vec(), nats };
+        let fitted = Fitted {
+            moduli,
+            ln_factor,
+            delay_s: 0.0,
+            delay_phase_rad: 0.0,
+            misfit,
+            values: 80,
+            own: own.to_vec(),
+            nats,
+        };
         Explanation { edits, elsewhere: Vec::new(), data_hypothesis, fitted, nats }
     }
 

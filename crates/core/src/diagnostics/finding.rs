@@ -171,7 +171,7 @@ pub enum Fault {
         factor: f64,
         /// Standard deviation of its logarithm.
         relative_std: f64,
-        /// The number with a name that it is, within [`KNOWN_FACTOR_RTOL`] and five standard deviations.
+        /// The number with a name that it is, within [`KNOWN_FACTOR_RTOL`], three standard deviations, and half of the misfit that is left.
         known: Option<KnownFactor>,
     },
     /// The response is late: its phase falls in proportion to frequency.

@@ -2,7 +2,8 @@
 //!
 //! The unknowns are not known yet. So every way to read the data is judged after the likeliest values for it: the nominal ones times a number each, with a slope
 //! over log ω and a damping that they have in common, within the bounds and a factor of four. One subspace for the whole box (B-3) answers for all values: of one
-//! unknown its response at each of some forty frequencies is a sum over poles, x_m(c) = Σ_k ρ_mk/(1 + cλ_k); of several it is a sum over the modes at values near by.
+//! unknown its response at each of some forty frequencies is a sum over poles, x_m(c) = Σ_k ρ_mk/(1 + cλ_k); of several it is a sum over the modes at values near by,
+//! which the natural frequencies of the measurement show whatever is wrong with its values.
 //! What is compared are residuals ln(measured/model), magnitude and phase together, by the
 //! likelihood of Student's distribution with a scale that is free (`misfit`), and by what BIC takes for each free number.
 //!
@@ -15,6 +16,7 @@
 //! answers (a clamped structure below its first resonance), and then nothing is said. Damping that shows gives a conjugated FRF away; where it is less than the noise, nothing is said.
 //! A dof is one of several where neighbours or mirror images answer alike: all of them are named. Faults that depend on frequency (a filter, a mounting resonance) are not searched.
 
+mod by_modes;
 mod data_hypothesis;
 mod dof_mismatch;
 mod explanation;

@@ -28,6 +28,8 @@ pub(super) struct Responses<'a> {
     pub(super) frequency_hz: Vec<f64>,
     problem: &'a Problem<'a>,
     sums: Sums,
+    /// The values that were known before: of several unknowns those whose modes are summed.
+    pub(super) about: Moduli,
     /// Residues `[column][frequency][pole]`, once for all frequencies of modes: the sensors', then those of other places.
     columns: Vec<Vec<Vec<c64>>>,
     pub(super) subspace: &'a Subspace<'a>,
@@ -99,6 +101,7 @@ impl<'a> Responses<'a> {
             frequency_hz: frequency_hz.to_vec(),
             problem,
             sums,
+            about: about.clone(),
             columns: Vec::new(),
             rows: subspace.model().dim(),
             subspace,

@@ -107,6 +107,8 @@ pub(super) struct Fitted {
     /// By how much the delay turns the phase at the top of the band.
     pub(super) delay_phase_rad: f64,
     pub(super) misfit: Misfit,
+    /// How many values there are.
+    pub(super) values: usize,
     /// The misfit of each sensor for itself: the one of all leaves out a sensor that differs from most.
     pub(super) own: Vec<f64>,
     /// −ln likelihood, and half the logarithm of the number of values for each free number (BIC/2).
@@ -193,6 +195,10 @@ impl Search<'_, '_> {
         order.sort_by(|&a, &b| scored[a].0.total_cmp(&scored[b].0));
         let mut starts: Vec<Start> =
             known.iter().map(|known| (known.moduli.clone(), known.ln_factor, known.delay_s)).collect();
+        if self.responses.is_modal() {
+            let about = &self.responses.about;
+            starts.push((about.clone(), score(&values, &self.ln(data_hypothesis, about)).1, 0.0));
+        }
         let first = starts.len();
         let followed = FOLLOWED_STARTS + self.responses.parametrization.free().count();
         for &p in &order {
@@ -364,6 +370,7 @@ impl Search<'_, '_> {
             delay_s: *delay_s,
             delay_phase_rad: delay_s * self.top(),
             misfit,
+            values: rest.len(),
             own,
             nats: misfit.nats + penalty + far + BOUND_PENALTY * beyond,
         }

@@ -65,6 +65,7 @@ pub use problem::Problem;
 pub use problem_error::ProblemError;
 pub use reduced_band::ReducedBand;
 pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
+pub(crate) use shown_modes::ShownModes;
 pub use uncertainty::{Contributions, Uncertainty};
 pub use unknown::{Dependence, Unknown, Variation};
 

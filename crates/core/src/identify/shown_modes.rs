@@ -13,15 +13,15 @@ const MAX_LINES: usize = 1000;
 const MAX_SENSORS: usize = 6;
 
 /// Measured modes, with residues at some of the sensors.
-pub(super) struct ShownModes {
-    pub(super) sensors: Vec<usize>,
-    pub(super) modes: Vec<MeasuredMode>,
+pub(crate) struct ShownModes {
+    pub(crate) sensors: Vec<usize>,
+    pub(crate) modes: Vec<MeasuredMode>,
 }
 
 impl ShownModes {
     /// Of what was measured at angular frequencies ω, with its standard deviations, both `[line][sensor]`; of a sensor whose deviations are infinite
     /// nothing is asked. The records may have a window of this decay. `None` where no poles can be fitted.
-    pub(super) fn new(
+    pub(crate) fn new(
         omegas: &[f64],
         (measured, std): (&[Vec<c64>], &[Vec<f64>]),
         decay_per_s: f64,

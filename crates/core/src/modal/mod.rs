@@ -17,9 +17,11 @@ mod measured_modes;
 mod pairing;
 mod rational_fit;
 mod stabilisation;
+mod stiffness_factors;
 
 pub use correlation::{assurance, coordinate_assurance, scale_assurance};
 pub use measured_modes::{MeasuredMode, MeasuredModes, PoleOptions, measured_modes};
 pub(crate) use pairing::{LOG_FREQUENCY_STD, best, nearest_pairs};
 pub use pairing::{Pair, PairedShape, Pairing, paired};
 pub use stabilisation::PoleAtOrder;
+pub(crate) use stiffness_factors::{LOG_FACTOR_STD, stiffness_factors};

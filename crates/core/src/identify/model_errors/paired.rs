@@ -7,8 +7,9 @@ use super::fitting::{Fitting, Place, middle};
 use super::tuned::MAX_SHARE;
 use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
-use crate::modal::{LOG_FREQUENCY_STD, MeasuredMode, Pair, PairedShape, paired};
-use frfit_linalg::dense::Cholesky;
+use crate::modal::{
+    LOG_FACTOR_STD, LOG_FREQUENCY_STD, MeasuredMode, Pair, PairedShape, paired, stiffness_factors,
+};
 use std::f64::consts::TAU;
 
 /// Fewer pairs say nothing of a common factor beside the errors of the modes.
@@ -23,15 +24,8 @@ const PAIRING_ROUNDS: usize = 3;
 /// By how much the loss factors of partners differ, over the usual one.
 const LOSS_FACTOR_STD: f64 = 0.2;
 
-/// By how much one unknown may be off beside all of them, in its logarithm.
-const LOG_FACTOR_STD: f64 = 0.5;
-
 /// No loss factor is a smaller part of the usual one.
 const MIN_LOSS_FACTOR_RATIO: f64 = 0.1;
-
-/// Student's degrees of freedom of the differences of partners: a few pairs may be wrong. How often their weights are found.
-const DEGREES_OF_FREEDOM: f64 = 4.0;
-const WEIGHT_ROUNDS: usize = 4;
 
 /// Natural frequencies say where an unknown is if its standard deviation by them is less than this, in its logarithm: half of what was assumed.
 const KNOWN_LOG_STD: f64 = 0.5 * LOG_FACTOR_STD;
@@ -127,7 +121,7 @@ impl Search<'_, '_> {
         let is_single = self.stiffnesses.len() == 1;
         let own = |rest: &dyn Fn(&PairOfModes) -> f64, apart: [f64; 2]| -> Option<(Vec<f64>, Vec<f64>)> {
             let rests: Vec<f64> = pairs.iter().map(rest).collect();
-            let (found, stds) = differences(pairs, &rests, apart)?;
+            let (found, stds) = stiffness_factors(pairs.iter().map(|pair| &*pair.shares), &rests, apart)?;
             Some((if is_single { vec![0.0] } else { found }, stds))
         };
         let apart = [2.0 * LOG_FREQUENCY_STD, LOG_FACTOR_STD];
@@ -214,50 +208,5 @@ impl Search<'_, '_> {
         let data = self.data;
         let decay_per_s = data.on(self.curves, self.centre, self.lines[0])?.at.model.decay_per_s();
         ShownModes::new(data.omegas, (data.measured, data.sigma), decay_per_s, self.for_each)
-    }
-}
-
-/// x with least Σ (r − Σ w x)²/s² + Σ x²/t², of pairs with shares w, whose rests r have Student's distribution, and the standard deviations of x. s and t are standard deviations.
-fn differences(pairs: &[PairOfModes], rests: &[f64], [s, t]: [f64; 2]) -> Option<(Vec<f64>, Vec<f64>)> {
-    let n = pairs.first()?.shares.len();
-    let (mut x, mut stds) = (vec![0.0; n], vec![t; n]);
-    for _ in 0..WEIGHT_ROUNDS {
-        let mut matrix = vec![0.0; n * n];
-        (0..n).for_each(|i| matrix[i * n + i] = 1.0 / (t * t));
-        let mut right = vec![0.0; n];
-        for (PairOfModes { shares, .. }, rest) in pairs.iter().zip(rests) {
-            let off = (rest - shares.iter().zip(&x).map(|(w, x)| w * x).sum::<f64>()) / s;
-            let weight = (DEGREES_OF_FREEDOM + 1.0) / (DEGREES_OF_FREEDOM + off * off) / (s * s);
-            for i in 0..n {
-                right[i] += weight * shares[i] * rest;
-                (0..n).for_each(|j| matrix[i * n + j] += weight * shares[i] * shares[j]);
-            }
-        }
-        let factor = Cholesky::new(n, &matrix).ok()?;
-        factor.solve(&mut right);
-        x = right;
-        stds = factor.inverse().iter().step_by(n + 1).map(|variance| variance.sqrt()).collect();
-    }
-    Some((x, stds))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two unknowns are off by different factors, and one of seven pairs is wrong: it is as if it were not there.
-    #[test]
-    fn unknowns_are_moved_apart_by_their_pairs() {
-        let truth = [0.2, -0.3];
-        let pair =
-            |share: f64| PairOfModes { shares: vec![share, 1.0 - share], log_ratio: 0.0, loss_factor: 0.0 };
-        let pairs: Vec<PairOfModes> = [0.9, 0.1, 0.5, 0.7, 0.3, 0.6, 0.4].map(pair).into();
-        let right = |pair: &PairOfModes| pair.shares.iter().zip(truth).map(|(w, x)| w * x).sum();
-        let mut rests: Vec<f64> = pairs.iter().map(right).collect();
-        rests[2] += 0.4;
-        let (found, stds) = differences(&pairs, &rests, [0.04, 0.5]).unwrap();
-        assert!(stds.iter().all(|std| (0.02..0.06).contains(std)), "{stds:?}");
-        let off = found.iter().zip(truth).map(|(x, truth)| (x - truth).abs()).fold(0.0, f64::max);
-        assert!(off < 0.02, "{found:?}");
     }
 }
