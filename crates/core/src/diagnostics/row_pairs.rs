@@ -23,8 +23,8 @@ const MAX_LEFT_OUT: usize = 2;
 const MAX_LOAD_ROWS: usize = 6;
 const MAX_KEPT_LOAD_ROWS: usize = 2;
 
-/// Rows of a sensor that are fitted beside another row.
-const MAX_SENSOR_ROWS: usize = 3;
+/// Rows of a sensor that are fitted beside another row: through a sandwich four nodes answer alike.
+const MAX_SENSOR_ROWS: usize = 4;
 
 /// Moduli with which two sensors' rows are fitted.
 const MAX_MODULI_OF_SENSORS: usize = 3;
@@ -38,7 +38,7 @@ struct Pair {
 }
 
 /// The best pairs of rows, each fitted on a model that was trained for it. It costs two trainings near some moduli, whatever the number of rows, for at most
-/// 12 places the one and 36 the other.
+/// 12 places the one and 44 the other.
 pub(super) fn row_pairs(
     search: &Search<'_, '_>,
     case: Case<'_>,
