@@ -154,6 +154,11 @@ pub(super) const PENCIL_SHIFT_RATIO: f64 = 1e-4;
 /// Squares of natural frequencies below this part of that shift are those of rigid bodies.
 const RIGID_BODY_RATIO: f64 = 1e-4;
 
+/// Whether the square of a natural frequency is that of a rigid body.
+pub(super) fn is_rigid(square: f64, highest_rad_s: f64) -> bool {
+    square <= RIGID_BODY_RATIO * PENCIL_SHIFT_RATIO * highest_rad_s * highest_rad_s
+}
+
 /// Below this share of a mode's strain energy an error there does not count as an error of the mode.
 const MIN_ENERGY_SHARE: f64 = 0.02;
 
@@ -198,7 +203,7 @@ impl Projection {
         let (mu, simultaneous) = self.simultaneous(&shifted, &mass)?;
         let greatest = mu.last().copied().unwrap_or(0.0);
         let square = |k: usize| 1.0 / mu[k] - shift;
-        let is_rigid = |square: f64| square <= RIGID_BODY_RATIO * shift;
+        let is_rigid = |square: f64| is_rigid(square, highest_rad_s);
         // What a rigid body would have of a stiffness that holds it, as if it were a part of the first one.
         let lowest = (0..r).rev().map(square).find(|square| !is_rigid(*square));
         let lowest = lowest.unwrap_or(highest_rad_s * highest_rad_s);

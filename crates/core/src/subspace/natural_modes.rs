@@ -10,6 +10,7 @@
 //! # Source
 //! P. Lancaster, Arch. Rational Mech. Anal. 8 (1961) 309–322 (inverse iteration with a functional); H. Voss, Handbook of Linear Algebra, ch. 115, 2nd ed. (2014).
 
+use super::modes::is_rigid;
 use super::shift::Shift;
 use super::{Projection, Subspace};
 use crate::c64;
@@ -248,7 +249,8 @@ impl<'m> Subspace<'m> {
             for start in self.projection().oscillations(self.model, nominal, highest_rad_s) {
                 let Some(own) = self.projection().pole_near(self.model, &own, &start)? else { continue };
                 let is_below = own.s.norm() <= highest_rad_s && is_oscillation(own.s);
-                if is_below && is_another(&own, &modes) {
+                // A rigid body that a damper holds has a pole of rounding near zero.
+                if is_below && !is_rigid(own.s.norm_sqr(), highest_rad_s) && is_another(&own, &modes) {
                     modes.push(own);
                 }
             }
