@@ -59,6 +59,8 @@ pub struct Setting {
     pub impacts: Vec<usize>,
     /// Nominal values of the constants: storage in Pa, and loss factor.
     pub nominal: [[f64; 2]; 4],
+    /// Moduli of transverse shear in Pa, in the order of [`SHEAR`].
+    pub shear: [f64; 2],
     /// Mass of the accelerometer in kg.
     pub sensor_mass: f64,
     /// In which unit the acceleration is said to be.
@@ -77,6 +79,7 @@ impl Default for Setting {
             max_lines: 400,
             impacts: (1..=5).collect(),
             nominal: NOMINAL.map(|storage| [storage, LOSS_FACTOR]),
+            shear: SHEAR.map(|(_, storage)| storage),
             sensor_mass: 0.0,
             unit: "g",
             measurement: "scale = \"unknown\"",
@@ -104,7 +107,8 @@ impl Plate {
         let bending =
             NAMES.into_iter().zip(setting.nominal.map(|[storage, loss]| modulus(storage, loss, "")));
         let std = format!(", storage_std = \"{SHEAR_STD}\", loss_factor_std = \"50 %\"");
-        let shear = SHEAR.into_iter().map(|(name, storage)| (name, modulus(storage, LOSS_FACTOR, &std)));
+        let shear = SHEAR.into_iter().zip(setting.shear);
+        let shear = shear.map(|((name, _), storage)| (name, modulus(storage, LOSS_FACTOR, &std)));
         let stiffness = bending.chain(shear).zip(&assembled.stiffness);
         let stiffness = stiffness.map(|((name, factor), matrix)| (name, Role::Stiffness, matrix, factor));
         let mass = ("mass", Role::Mass, &assembled.mass[0], format!("{density:e}"));

@@ -1,10 +1,11 @@
 //! What is identified of a plate, and what that predicts.
 
 use super::Plate;
-use super::case::{LOSS_FACTOR, NAMES, Setting};
+use super::case::{LOSS_FACTOR, NAMES, SHEAR, Setting};
 use crate::wrong_models::Failure;
 use frfit::c64;
-use frfit::identify::{Explained, NumberOf, Status};
+use frfit::identify::{Explained, FactorError, NumberOf, Status};
+use frfit::model::FactorPart;
 use frfit_workflow::job::{IdentifyJob, identify_case};
 use frfit_workflow::load::{MeasuredNoise, Overrides};
 use frfit_workflow::modes::{ModesOptions, modes_case};
@@ -22,6 +23,8 @@ pub struct Found {
     correlation: [[f64; 4]; 4],
     /// Relative standard deviation of the errors of natural frequencies.
     pub frequency_std: f64,
+    /// Moduli of transverse shear in Pa with the errors that were found.
+    pub shear: [f64; 2],
     /// Mass at the sensor in kg that the model does not have.
     pub sensor_mass: f64,
     /// How many constants are `ok`.
@@ -91,6 +94,7 @@ impl Plate {
             loss_factors,
             correlation,
             frequency_std: found.model_errors.as_ref().map_or(0.0, |errors| errors.frequency_std),
+            shear: std::array::from_fn(|k| setting.shear[k] * (1.0 + factor_error(&job, SHEAR[k].0))),
             sensor_mass: found
                 .model_errors
                 .as_ref()
@@ -102,7 +106,7 @@ impl Plate {
         })
     }
 
-    /// Natural frequencies of the plate with the constants and the mass at the sensor that were found, beside those of all five impacts in a band.
+    /// Natural frequencies of the plate with the constants, the moduli of shear and the mass at the sensor that were found, beside those of all five impacts in a band.
     ///
     /// # Errors
     /// [`Failure`] as [`Self::identify`].
@@ -128,8 +132,9 @@ impl Plate {
     ) -> Result<Vec<PredictedMode>, Failure> {
         let folder = tempfile::tempdir()?;
         let nominal = std::array::from_fn(|k| [storage[k], found.loss_factors[k].max(0.1 * LOSS_FACTOR)]);
-        let case = self
-            .case(&Setting { nominal, sensor_mass: found.sensor_mass, ..setting.clone() }, folder.path())?;
+        let found_setting =
+            Setting { nominal, shear: found.shear, sensor_mass: found.sensor_mass, ..setting.clone() };
+        let case = self.case(&found_setting, folder.path())?;
         let job = modes_case(&case, &Overrides::default(), &ModesOptions::default(), None)?;
         let terms = job.case.model.terms();
         let place = |name: &str| terms.iter().position(|term| term.name == name).ok_or("no such matrix");
@@ -148,6 +153,15 @@ impl Plate {
         };
         Ok(measured.pairing.pairs.iter().map(of_pair).collect())
     }
+}
+
+/// The error of the storage part of a known factor, zero where none was searched.
+fn factor_error(job: &IdentifyJob, matrix: &str) -> f64 {
+    let terms = job.case.model.terms();
+    let of_matrix =
+        |error: &&FactorError| terms[error.term].name == matrix && error.part == FactorPart::Storage;
+    let errors = job.run.found.model_errors.iter().flat_map(|errors| &errors.factors);
+    errors.into_iter().find(of_matrix).map_or(0.0, |error| error.error)
 }
 
 impl Found {
