@@ -92,10 +92,10 @@ fn light_damping_is_found_from_one_percent_of_noise() {
         assert!(found.lines.iter().all(|line| line.status == Status::Ok));
     }
     for k in 0..2 {
-        // All of eight within 4 standard deviations but for one in 2000; the mean square is 1 ± 0.5.
+        // All of eight within 4 standard deviations but for one in 2000; the mean square is 1 ± 0.5. Bars of the storage part hold errors of a mesh that noise hides.
         assert!(pulls.iter().all(|pulls| pulls[k].abs() < 4.0), "{pulls:?}");
         let mean_square = pulls.iter().map(|pulls| pulls[k] * pulls[k]).sum::<f64>() / pulls.len() as f64;
-        assert!(of_tier(0.0..16.0, 0.1..3.0).contains(&mean_square), "{pulls:?}");
+        assert!(of_tier(0.0..16.0, [0.0, 0.1][k]..3.0).contains(&mean_square), "{pulls:?}");
     }
 }
 

@@ -6,7 +6,9 @@ use crate::tier::{is_long, of_tier};
 
 use common::{Band, Case, Setup, bar, plate, sandwich};
 use frfit::c64;
-use frfit::diagnostics::{Diagnosis, Fault, Finding, KnownFactor, MIN_MARGIN_NATS, NotJudged, diagnose};
+use frfit::diagnostics::{
+    Diagnosis, Fault, Finding, KnownFactor, MIN_MARGIN_NATS, NotJudged, OtherExplanation, diagnose,
+};
 use frfit::for_each::{ForEach, sequential};
 use frfit::frequency::{linear_hz, omega_rad_s};
 use frfit::identify::{Noise as Known, Problem, Variation};
@@ -228,20 +230,28 @@ fn two_rows_at_once_are_found_at_a_cost_that_does_not_grow_with_the_rows() {
                 Elsewhere::BothSensors => experiment.sensors[1].row = elsewhere(were[1], 3 * (rows / 8)),
             }
             let diagnosis = test.diagnose();
-            let named = |sensors: &[usize], row: usize| {
-                diagnosis.findings.iter().any(|finding| {
-                    let (Fault::LoadDof { rows } | Fault::ResponseDof { rows }) = &finding.fault else {
-                        return false;
-                    };
-                    finding.sensors == sensors && rows.iter().any(|other| other.row == row)
+            let second = match which {
+                Elsewhere::LoadAndSensor => (&[0, 1][..], load),
+                Elsewhere::BothSensors => (&[1][..], were[1]),
+            };
+            let names = |faults: &[(Fault, Vec<usize>)], (sensors, row): (&[usize], usize)| {
+                faults.iter().any(|(fault, of)| match fault {
+                    Fault::LoadDof { rows } | Fault::ResponseDof { rows } => {
+                        of == sensors && rows.iter().any(|other| other.row == row)
+                    }
+                    _ => false,
                 })
             };
-            let what = format!("{name}, {which:?}: {diagnosis:#?}");
-            let second = match which {
-                Elsewhere::LoadAndSensor => named(&[0, 1], load),
-                Elsewhere::BothSensors => named(&[1], were[1]),
+            let are_both = |faults: &[(Fault, Vec<usize>)]| {
+                faults.len() == 2 && names(faults, (&[0], were[0])) && names(faults, second)
             };
-            assert!(diagnosis.findings.len() == 2 && second && named(&[0], were[0]), "{what}");
+            let found: Vec<(Fault, Vec<usize>)> =
+                diagnosis.findings.iter().map(|one| (one.fault.clone(), one.sensors.clone())).collect();
+            // In a sandwich that is symmetric another load may show the same at both sensors: then the data do not decide.
+            let is_equal = |one: &OtherExplanation| are_both(&one.faults) && one.nats_behind < 3.0;
+            let is_undecided = found.is_empty() && diagnosis.others.iter().any(is_equal);
+            let what = format!("{name}, {which:?}: {diagnosis:#?}");
+            assert!(are_both(&found) || (k == 2 && is_undecided), "{what}");
             // Trained are: the box, one for single rows of each of two readings, two for pairs, the other axes, and nominal values ten times off to either side.
             let frfit::response::Work { factorisations, solves } = diagnosis.work;
             assert!(factorisations <= 10 && solves <= 600, "{what}");

