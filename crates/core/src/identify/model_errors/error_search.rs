@@ -165,8 +165,8 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
             let kinds = with(wrong.kinds);
             if kinds != wrong.kinds {
                 let (place, fitting) = (wrong.found.place.clone(), Fitting { kinds, ..fine });
-                // A minimum that explains the band is near. From any other one added noise leads away.
-                let more = if self.is_explained(&wrong) {
+                // A minimum that explains the band is near, and noise that is not given is what the errors leave. From any other minimum less noise leads away.
+                let more = if self.is_explained(&wrong) || !data.known() {
                     let sizes = wrong.sizes.with_kinds(kinds, fine.known);
                     fitting
                         .linearised(place)

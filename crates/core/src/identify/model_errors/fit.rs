@@ -105,11 +105,11 @@ impl Measured<'_, '_> {
             let (found, near) = fitting.descend(at, &noise, &fitting.precision(&sizes), STEPS_PER_LEVEL)?;
             at = near;
             // What is left is larger than what would come next: with less noise, errors would only follow it.
-            let is_left = found.normal.chi_squared > numbers;
+            let left = (found.normal.chi_squared / numbers).sqrt();
             if !known {
-                level = added;
+                level = added * left.max(1.0);
             }
-            if is_left {
+            if left > 1.0 {
                 rest = Rest { std: added.min(MAX_REST), ..Rest::NONE };
                 break;
             }
