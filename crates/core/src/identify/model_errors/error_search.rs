@@ -57,13 +57,20 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// The errors of stiffness that explain the band best, or of stiffness and masses. `None` where nothing can be compared.
     pub(super) fn of_stiffness(&self) -> Option<Explained> {
-        let each: [fn(&Self) -> Option<Explained>; 4] =
-            [Self::of_starts, Self::paired, Self::with_masses, Self::upwards];
-        let mut wrong = None;
-        for from in each {
-            if !wrong.as_ref().is_some_and(|wrong| self.is_found(wrong)) {
-                wrong = self.better(wrong, from(self));
-            }
+        let is_found = |wrong: &Option<Explained>| wrong.as_ref().is_some_and(|wrong| self.is_found(wrong));
+        let by_starts = self.of_starts();
+        let by_modes = if is_found(&by_starts) { None } else { self.paired() };
+        // Where single lines and natural frequencies lead to the same small errors, no other start is likely to come to better ones of the same kinds.
+        let is_same = by_starts.as_ref().zip(by_modes.as_ref()).is_some_and(|(a, b)| self.are_same(a, b));
+        let mut wrong = self.better(by_starts, by_modes);
+        if !is_found(&wrong) {
+            wrong = self.better(wrong, self.with_masses());
+        }
+        if is_same {
+            return wrong;
+        }
+        if !is_found(&wrong) {
+            wrong = self.better(wrong, self.upwards());
         }
         Some(self.tuned(wrong?))
     }
@@ -198,6 +205,13 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
             are_large(a).cmp(&are_large(b)).then(a.evidence.total_cmp(&b.evidence))
         };
         a.into_iter().chain(b).min_by(order)
+    }
+
+    /// Whether two are one: the unknowns are the same, and the errors of either are small.
+    fn are_same(&self, a: &Explained, b: &Explained) -> bool {
+        let unknowns = |one: &Explained| one.found.place[..self.whole.curves.count()].to_vec();
+        let are_small = [a, b].iter().all(|one| self.whole.are_small(&one.found.place));
+        are_small && distance(&unknowns(a), &unknowns(b)) <= SAME_START
     }
 
     /// Whether a sensor is not left out at a line.
