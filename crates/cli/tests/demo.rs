@@ -131,6 +131,11 @@ fn every_example_runs_and_strict_tells_of_frequencies_without_a_trusted_answer()
                 None if is_of_paper => {
                     assert!(truth["fraction_right_of_ok"].as_f64().unwrap() > 0.8, "{name}: {unknown}");
                 }
+                // Measured on a finer mesh: within the bars.
+                None if name == "two-meshes" => {
+                    let covered = |part: &str| truth["covered"][part].as_f64().unwrap();
+                    assert!(covered("storage").min(covered("loss_factor")) > 0.9, "{name}: {unknown}");
+                }
                 None => {
                     assert!(
                         truth["fraction_right"] == 1.0 && truth["wrong_and_ok"] == 0,
