@@ -11,9 +11,7 @@ use crate::frequency::omega_rad_s;
 use crate::frfs::{Noise, standard_deviations};
 use crate::identify::{Problem, ShownModes};
 use crate::median::median;
-use crate::modal::{
-    LOG_FACTOR_STD, LOG_FREQUENCY_STD, Pair, PairedShape, Pairing, paired, stiffness_factors,
-};
+use crate::modal::{Pair, PairedShape, Pairing, paired, stiffness_factors};
 use crate::model::ModelAt;
 use crate::subspace::Projection;
 use frfit_linalg::vector::norm;
@@ -116,11 +114,8 @@ impl Partners {
             return None;
         }
         let common = stiffness_factor.ln();
-        let rest =
-            |pair: &Pair| -2.0 * pair.frequency_difference.ln_1p() - common * own[pair.model].energy_share;
-        let rests: Vec<f64> = pairs.iter().map(rest).collect();
-        let of_pairs = pairs.iter().map(|pair| &*shares[pair.model]);
-        let (factors, _) = stiffness_factors(of_pairs, &rests, [2.0 * LOG_FREQUENCY_STD, LOG_FACTOR_STD])?;
+        let of_pair = |pair: &Pair| (&*shares[pair.model], -pair.frequency_difference.ln_1p());
+        let (factors, _) = stiffness_factors(pairs.iter().map(of_pair), common)?;
         for ((j, [low, high]), factor) in free.into_iter().zip(factors) {
             moduli.ln_sizes[j] = (moduli.ln_sizes[j] + common + factor).clamp(low, high);
         }

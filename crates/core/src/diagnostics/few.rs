@@ -188,13 +188,13 @@ pub(super) fn look<T>(
     if responses_there.is_modal() {
         // The modes of the likeliest values, in place of those of the nominal ones.
         let likeliest = choose(&as_given, &tried).map_or(&as_given, |choice| choice.best);
-        let by_modes = || {
+        let by_modes = if likeliest.fitted.misfit.sigma <= LARGE_MISFIT {
+            None
+        } else {
             let model = (subspace.projection(), &*sensors);
             moduli_by_modes(problem, model, measured, (&parametrization, &frequency_hz), for_each)
         };
-        let is_explained = likeliest.fitted.misfit.sigma <= LARGE_MISFIT;
-        let moduli = if is_explained { None } else { by_modes() };
-        let moduli = moduli.unwrap_or_else(|| likeliest.fitted.moduli.clone());
+        let moduli = by_modes.unwrap_or_else(|| likeliest.fitted.moduli.clone());
         if moduli.ln_sizes.iter().any(|ln| ln.abs() > MODES_LN_RANGE)
             && let Some(nearer) = responses(&moduli)
         {

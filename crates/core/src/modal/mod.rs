@@ -21,7 +21,7 @@ mod stiffness_factors;
 
 pub use correlation::{assurance, coordinate_assurance, scale_assurance};
 pub use measured_modes::{MeasuredMode, MeasuredModes, PoleOptions, measured_modes};
-pub(crate) use pairing::{LOG_FREQUENCY_STD, best, nearest_pairs};
 pub use pairing::{Pair, PairedShape, Pairing, paired};
+pub(crate) use pairing::{best, nearest_pairs};
 pub use stabilisation::PoleAtOrder;
-pub(crate) use stiffness_factors::{LOG_FACTOR_STD, stiffness_factors};
+pub(crate) use stiffness_factors::{LOG_FACTOR_STD, by_shares, stiffness_factors};

@@ -1,5 +1,6 @@
-//! Factors on stiffnesses by pairs of modes.
+//! Stiffnesses and loss factors by pairs of modes.
 
+use super::pairing::LOG_FREQUENCY_STD;
 use frfit_linalg::dense::Cholesky;
 
 /// By how much one unknown may be off beside all of them, in its logarithm.
@@ -9,10 +10,22 @@ pub(crate) const LOG_FACTOR_STD: f64 = 0.5;
 const DEGREES_OF_FREEDOM: f64 = 4.0;
 const WEIGHT_ROUNDS: usize = 4;
 
-/// x with least Σ (r − Σ w x)²/s² + Σ x²/t², of pairs with shares w, whose rests r have Student's distribution, and the standard deviations of x. s and t are standard deviations.
+/// ln of the factor on each unknown stiffness beside the one that all have in common, `common` in its logarithm, and the standard deviations. A pair has the shares of the unknowns in the
+/// strain energy of its mode, and ln of the measured natural frequency over that of the model.
 ///
 /// By Rayleigh's quotient a stiffness with the share w of the strain energy of a mode changes 2 ln ω by w of the change of its logarithm. `None` without pairs.
 pub(crate) fn stiffness_factors<'p>(
+    pairs: impl Iterator<Item = (&'p [f64], f64)> + Clone,
+    common: f64,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let rest = |(shares, log_ratio): (&[f64], f64)| 2.0 * log_ratio - common * shares.iter().sum::<f64>();
+    let rests: Vec<f64> = pairs.clone().map(rest).collect();
+    by_shares(pairs.map(|(shares, _)| shares), &rests, [2.0 * LOG_FREQUENCY_STD, LOG_FACTOR_STD])
+}
+
+/// x with least Σ (r − Σ w x)²/s² + Σ x²/t², of pairs with shares w, whose rests r have Student's distribution, and the standard deviations of x. s and t are standard deviations.
+/// `None` without pairs.
+pub(crate) fn by_shares<'p>(
     shares: impl Iterator<Item = &'p [f64]> + Clone,
     rests: &[f64],
     [s, t]: [f64; 2],
@@ -51,8 +64,7 @@ mod tests {
         let right = |shares: &[f64; 2]| shares.iter().zip(truth).map(|(w, x)| w * x).sum();
         let mut rests: Vec<f64> = shares.iter().map(right).collect();
         rests[2] += 0.4;
-        let (found, stds) =
-            stiffness_factors(shares.iter().map(|one| &one[..]), &rests, [0.04, 0.5]).unwrap();
+        let (found, stds) = by_shares(shares.iter().map(|one| &one[..]), &rests, [0.04, 0.5]).unwrap();
         assert!(stds.iter().all(|std| (0.02..0.06).contains(std)), "{stds:?}");
         let off = found.iter().zip(truth).map(|(x, truth)| (x - truth).abs()).fold(0.0, f64::max);
         assert!(off < 0.02, "{found:?}");

@@ -209,9 +209,10 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// Whether two are one: the unknowns are the same, and the errors of either are small.
     fn are_same(&self, a: &Explained, b: &Explained) -> bool {
-        let unknowns = |one: &Explained| one.found.place[..self.whole.curves.count()].to_vec();
-        let are_small = [a, b].iter().all(|one| self.whole.are_small(&one.found.place));
-        are_small && distance(&unknowns(a), &unknowns(b)) <= SAME_START
+        let [a, b] = [a, b].map(|one| &one.found.place);
+        let unknowns = self.whole.curves.count();
+        let is_near = distance(&a[..unknowns], &b[..unknowns]) <= SAME_START;
+        is_near && self.whole.are_small(a) && self.whole.are_small(b)
     }
 
     /// Whether a sensor is not left out at a line.

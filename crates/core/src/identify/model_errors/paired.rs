@@ -7,9 +7,7 @@ use super::fitting::{Fitting, Place, middle};
 use super::tuned::MAX_SHARE;
 use crate::identify::shown_modes::ShownModes;
 use crate::median::median;
-use crate::modal::{
-    LOG_FACTOR_STD, LOG_FREQUENCY_STD, MeasuredMode, Pair, PairedShape, paired, stiffness_factors,
-};
+use crate::modal::{LOG_FACTOR_STD, MeasuredMode, Pair, PairedShape, by_shares, paired, stiffness_factors};
 use std::f64::consts::TAU;
 
 /// Fewer pairs say nothing of a common factor beside the errors of the modes.
@@ -119,22 +117,20 @@ impl Search<'_, '_> {
     /// Returns the standard deviations of ln p.
     fn move_to(&self, theta: &mut [f64], pairs: &[PairOfModes], common: f64) -> Option<Vec<f64>> {
         let is_single = self.stiffnesses.len() == 1;
-        let own = |rest: &dyn Fn(&PairOfModes) -> f64, apart: [f64; 2]| -> Option<(Vec<f64>, Vec<f64>)> {
-            let rests: Vec<f64> = pairs.iter().map(rest).collect();
-            let (found, stds) = stiffness_factors(pairs.iter().map(|pair| &*pair.shares), &rests, apart)?;
-            Some((if is_single { vec![0.0] } else { found }, stds))
-        };
-        let apart = [2.0 * LOG_FREQUENCY_STD, LOG_FACTOR_STD];
-        let (factors, log_stds) = own(&|pair| 2.0 * pair.log_ratio - pair.share() * common, apart)?;
-        for (&unknown, factor) in self.stiffnesses.iter().zip(factors) {
+        let own = |found: Vec<f64>| if is_single { vec![0.0] } else { found };
+        let shares = pairs.iter().map(|pair| &*pair.shares);
+        let log_ratios = pairs.iter().map(|pair| pair.log_ratio);
+        let (factors, log_stds) = stiffness_factors(shares.clone().zip(log_ratios), common)?;
+        for (&unknown, factor) in self.stiffnesses.iter().zip(own(factors)) {
             self.curves.scale(theta, unknown, common + factor);
         }
         let of_unknowns = pairs.iter().filter(|pair| pair.share() > MIN_ENERGY_SHARE);
         let usual = median(of_unknowns.map(|pair| pair.loss_factor / pair.share()).collect());
         let Some(usual) = usual else { return Some(log_stds) };
         let apart = [LOSS_FACTOR_STD * usual, usual];
-        let (loss_factors, _) = own(&|pair| pair.loss_factor - pair.share() * usual, apart)?;
-        for (&unknown, loss_factor) in self.stiffnesses.iter().zip(loss_factors) {
+        let rests: Vec<f64> = pairs.iter().map(|pair| pair.loss_factor - pair.share() * usual).collect();
+        let (loss_factors, _) = by_shares(shares, &rests, apart)?;
+        for (&unknown, loss_factor) in self.stiffnesses.iter().zip(own(loss_factors)) {
             let loss_factor = (usual + loss_factor).max(MIN_LOSS_FACTOR_RATIO * usual);
             self.curves.set_loss_factor(theta, unknown, loss_factor);
         }
