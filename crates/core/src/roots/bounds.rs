@@ -4,6 +4,9 @@ use crate::c64;
 use crate::material::loss_factor;
 use std::fmt;
 
+/// So far beyond a bound, relative to it, a value is still at it: the rounding of a product and of an exponential.
+const ROUNDING: f64 = 1e-12;
+
 /// Closed intervals for the updated factor p̄ + c; `None` is no bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bounds {
@@ -54,14 +57,20 @@ impl Bounds {
     }
 
     /// Which bound a factor breaks, in words; `None` if it breaks none.
+    ///
+    /// A value at its bound is within it, whatever rounding does: 10⁻¹² of it beyond counts as none.
     pub fn broken_by(&self, factor: c64) -> Option<&'static str> {
-        let outside = |value: f64, bound: Option<[f64; 2]>| {
-            // Not `!contains` on NaN by accident: NaN is outside.
-            bound.is_some_and(|[low, high]| !(low <= value && value <= high))
+        let outside = |value: f64, bound: Option<[f64; 2]>, least: f64| {
+            bound.is_some_and(|[low, high]| {
+                let beyond = |bound: f64| ROUNDING * bound.abs().max(least);
+                // Not `!contains` on NaN by accident: NaN is outside.
+                !(low - beyond(low) <= value && value <= high + beyond(high))
+            })
         };
-        if outside(factor.re, self.storage) {
+        if outside(factor.re, self.storage, 0.0) {
             Some("storage")
-        } else if outside(loss_factor(factor), self.loss_factor) {
+        // A loss factor is a share of the storage part, and rounds as that.
+        } else if outside(loss_factor(factor), self.loss_factor, 1.0) {
             Some("loss_factor")
         } else {
             None
@@ -94,5 +103,11 @@ mod tests {
         assert_eq!(bounds.broken_by(c64::new(1.5, -0.3)), Some("loss_factor"));
         assert_eq!(bounds.broken_by(c64::new(f64::NAN, 0.0)), Some("storage"));
         assert_eq!(Bounds::default().broken_by(c64::new(-1.0, 9.0)), None);
+        // A constant that a fit holds at its bounds: 0.1 · 2.293e8 / 2.293e8 is 0.1 but for rounding.
+        let at_bound = Bounds { storage: Some([3.0, 4.0]), loss_factor: Some([0.0, 0.1]) };
+        for factor in [c64::new(3.0 - 1e-15, 0.3 + 1e-15), c64::new(4.0 + 1e-15, -1e-16)] {
+            assert_eq!(at_bound.broken_by(factor), None);
+        }
+        assert_eq!(at_bound.broken_by(c64::new(3.0, 0.3 + 1e-9)), Some("loss_factor"));
     }
 }
