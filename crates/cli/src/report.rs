@@ -393,6 +393,12 @@ fn work(text: &mut Text, job: &IdentifyJob) {
         "work",
         &format!("{} factorisations, {} solves, {seconds:.2} s", work.factorisations, work.solves),
     );
+    if job.case.model.analysis().is_single_precision() {
+        text.say(
+            "memory",
+            "factors in single precision, since those in double do not fit: half the memory, more time",
+        );
+    }
     if let (Some(size), Some(error)) = (found.search.reduced_size, found.reduction_error()) {
         let sentence = format!("{size} vectors, error of the response at most {error:.1e} (estimated)");
         text.say("subspace", &sentence);

@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use common::{done, frfit, refused};
+use common::{column, done, frfit, refused};
 use std::path::Path;
 
 /// Writes an example, changes one of its files, and returns the message of `identify`.
@@ -73,6 +73,31 @@ fn a_model_that_does_not_fit_into_memory() {
     }
     refused(folder.path(), &["respond", "plate/case.toml", "--out", "out", "--memory", "1"]);
     assert!(!folder.path().join("out").exists(), "nothing is written");
+}
+
+/// What needs a little more memory than there is has its factors in single precision, and the same answers.
+#[test]
+fn a_model_whose_factors_fit_in_single_precision() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["--quiet", "example", "clamped-plate", "plate"]);
+    let arguments =
+        |out, memory| ["identify", "plate/case.toml", "--method", "rational", "--out", out, "--memory", memory];
+    let refusal = refused(folder.path(), &arguments("none", "1"));
+    let needed = refusal.split("expected ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    // Whole megabytes about what is needed.
+    let needed: f64 = needed.parse().unwrap();
+    let [more, less] = [needed.ceil(), needed.floor()].map(|megabytes| megabytes.to_string());
+    let double = done(folder.path(), &arguments("double", &more));
+    let single = done(folder.path(), &arguments("single", &less));
+    assert!(!double.contains("single precision"), "{double}");
+    assert!(single.contains("factors in single precision"), "{single}");
+    let values = |out: &str| -> Vec<f64> {
+        let table = std::fs::read_to_string(folder.path().join(out).join("identified.csv")).unwrap();
+        column(&table, "storage").iter().filter_map(|cell| cell.parse().ok()).collect()
+    };
+    let (double, single) = (values("double"), values("single"));
+    assert!(double.len() > 10 && double.len() == single.len());
+    assert!(double.iter().zip(&single).all(|(a, b)| (a - b).abs() < 1e-6 * a.abs()));
 }
 
 #[test]

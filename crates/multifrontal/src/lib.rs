@@ -43,6 +43,7 @@ mod memory;
 mod options;
 mod ordering;
 mod packed_lower;
+mod rounded;
 mod run;
 mod scalar;
 mod scaling;
@@ -55,6 +56,7 @@ pub use error::FactorError;
 pub use factor::{Factor, Inertia};
 pub use matrix::{MatrixError, SymmetricMatrix, Triangle};
 pub use options::Options;
+pub use rounded::RoundedFactor;
 pub use scalar::{Scalar, c32, c64};
 pub use solver::{Precision, Solution, Solver};
 pub use symbolic::{Ordering, PatternError, Symbolic};
@@ -64,6 +66,12 @@ pub use threads::Threads;
 fn arch() -> pulp::Arch {
     static ARCH: std::sync::OnceLock<pulp::Arch> = std::sync::OnceLock::new();
     *ARCH.get_or_init(pulp::Arch::new)
+}
+
+/// The largest |x|, which is no number where one of them is none.
+fn size<T: Scalar>(x: &[T]) -> f64 {
+    let larger = |largest: f64, size: f64| if size > largest || size.is_nan() { size } else { largest };
+    x.iter().map(|x| x.modulus()).fold(0.0, larger)
 }
 
 #[cfg(doctest)]

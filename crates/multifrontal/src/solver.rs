@@ -1,7 +1,7 @@
 //! Solutions that are checked: residual, refinement, condition, and single precision where it is enough.
 
 use crate::scalar::{Real, Scalar};
-use crate::{Factor, FactorError, Options, Ordering, Symbolic, Threads, scaling};
+use crate::{Factor, FactorError, Options, Ordering, RoundedFactor, Symbolic, size};
 use std::sync::OnceLock;
 
 /// Refinement stops below this many units of roundoff: a residual itself has a few.
@@ -42,7 +42,7 @@ pub struct Solver<'a, T: Scalar> {
     values: &'a [T],
     options: Options,
     norm: f64,
-    single: Option<Rounded<T>>,
+    single: Option<RoundedFactor<T>>,
     full: OnceLock<Result<Factor<T>, FactorError>>,
 }
 
@@ -64,7 +64,7 @@ impl<'a, T: Scalar> Solver<'a, T> {
         };
         if precision == Precision::Single {
             // What single precision cannot factorise, full precision may.
-            solver.single = Rounded::new(symbolic, values, options).ok();
+            solver.single = symbolic.factor_rounded(values, options).ok();
         }
         if solver.single.is_none() {
             solver.factor()?;
@@ -105,7 +105,7 @@ impl<'a, T: Scalar> Solver<'a, T> {
     pub fn solve(&self, rhs: &mut [T]) -> Result<Solution, FactorError> {
         let given = rhs.to_vec();
         if let Some(single) = &self.single {
-            let solve = |x: &mut [T]| single.solve_in_place(self.symbolic, x, self.options.threads);
+            let solve = |x: &mut [T]| single.solve_in_place(x, self.options.threads);
             let solution = self.refined(&given, rhs, solve, Precision::Single);
             if solution.backward_error <= REFINED_RESIDUAL_ROUNDOFFS * T::Real::ROUNDOFF {
                 return Ok(solution);
@@ -221,47 +221,7 @@ impl<'a, T: Scalar> Solver<'a, T> {
     }
 }
 
-fn size<T: Scalar>(x: &[T]) -> f64 {
-    let larger = |largest: f64, size: f64| if size > largest || size.is_nan() { size } else { largest };
-    x.iter().map(|x| x.modulus()).fold(0.0, larger)
-}
-
 fn sign<T: Scalar>(x: T) -> T {
     let size = x.modulus();
     if size > 0.0 { x.scale(T::Real::from_f64(1.0 / size)) } else { T::ONE }
-}
-
-/// A factor in single precision of S A S, scaled so that nothing overflows.
-#[derive(Debug)]
-struct Rounded<T: Scalar> {
-    factor: Factor<T::Single>,
-    /// S by row.
-    scale: Vec<T::Real>,
-}
-
-impl<T: Scalar> Rounded<T> {
-    fn new(symbolic: &Symbolic, values: &[T], options: &Options) -> Result<Self, FactorError> {
-        let scale = scaling::scaling(&symbolic.pattern, values, 1)?;
-        let scaled = symbolic.pattern.positions().zip(values);
-        let scaled = scaled.map(|((row, col), value)| value.scale(scale[row]).scale(scale[col]).to_single());
-        let factor = symbolic.factor(&scaled.collect::<Vec<_>>(), options)?;
-        Ok(Self { factor, scale })
-    }
-
-    fn solve_in_place(&self, symbolic: &Symbolic, rhs: &mut [T], threads: Threads) {
-        for x in rhs.chunks_exact_mut(symbolic.dim().max(1)) {
-            x.iter_mut().zip(&self.scale).for_each(|(x, &scale)| *x = x.scale(scale));
-            // A residual is small: brought to 1 it keeps all digits of single precision.
-            let largest = size(x);
-            if largest == 0.0 {
-                continue;
-            }
-            let (down, up) = (T::Real::from_f64(1.0 / largest), T::Real::from_f64(largest));
-            let mut single: Vec<T::Single> = x.iter().map(|x| x.scale(down).to_single()).collect();
-            self.factor.solve_in_place(&mut single, threads);
-            for ((x, single), &scale) in x.iter_mut().zip(single).zip(&self.scale) {
-                *x = T::from_single(single).scale(up).scale(scale);
-            }
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use crate::error::{InputError, Place};
 use crate::job_error::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
-use crate::memory::check_identify;
+use crate::memory::fit_identify;
 use crate::output::Words;
 use crate::run::{Used, in_parallel, problem_of, reduced_of};
 use crate::units::UnitSystem;
@@ -75,11 +75,11 @@ pub fn check_case(
 ///
 /// # Errors
 /// [`JobError`], also where the case has nothing to identify.
-pub fn check_loaded(case: Case, memory_bytes: Option<u64>) -> Result<CheckJob, JobError> {
+pub fn check_loaded(mut case: Case, memory_bytes: Option<u64>) -> Result<CheckJob, JobError> {
+    fit_identify(&mut case, memory_bytes)?;
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
-    check_identify(&case, wanted, memory_bytes)?;
     let diagnosis = check(&case, wanted)?;
     Ok(CheckJob { case, diagnosis })
 }

@@ -6,7 +6,7 @@ use crate::error::{InputError, Place};
 use crate::figures::{identify_figures, measured_figures, respond_figures};
 pub use crate::job_error::JobError;
 use crate::load::{Case, Check, IdentifyCase, Overrides, Purpose, load};
-use crate::memory::{check_full, check_identify};
+use crate::memory::{fit_full, fit_identify};
 use crate::modes::beside_identification;
 use crate::output::{
     File, IDENTIFIED, Words, candidates_csv, check_file, check_folder, error_map_csv, identified_csv,
@@ -186,15 +186,15 @@ pub fn compute_case(
 /// # Errors
 /// As [`compute_case`], and where the case has nothing to identify.
 pub fn compute(
-    case: Case,
+    mut case: Case,
     options: RunOptions,
     seconds_load: f64,
     progress: Progress<'_>,
 ) -> Result<Computed, JobError> {
+    fit_identify(&mut case, options.memory_bytes)?;
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
-    check_identify(&case, wanted, options.memory_bytes)?;
     if let Some(file) = &options.keep_reduced {
         check_file(file, &case.reads)?;
     }
@@ -271,12 +271,12 @@ pub fn train_case(
     memory_bytes: Option<u64>,
     out: &Path,
 ) -> Result<TrainJob, JobError> {
-    let case = load(case_file, overrides, Purpose::Train)?;
+    let mut case = load(case_file, overrides, Purpose::Train)?;
     check_file(out, &case.reads)?;
+    fit_identify(&mut case, memory_bytes)?;
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::file(case_file), "something to identify", "none").into());
     };
-    check_identify(&case, wanted, memory_bytes)?;
     let start = Instant::now();
     let used = Used::of(wanted);
     let problem = problem_of(&case, wanted, &used)?;
@@ -305,11 +305,11 @@ pub fn respond_case(
     out: Option<&Path>,
     progress: Progress<'_>,
 ) -> Result<(Case, RespondRun), JobError> {
-    let case = load(case_file, overrides, Purpose::Respond)?;
+    let mut case = load(case_file, overrides, Purpose::Respond)?;
     if let Some(out) = out {
         check_folder(out, &["response.csv", "frf.uff"], &case.reads)?;
     }
-    check_full(&case, memory_bytes)?;
+    fit_full(&mut case, memory_bytes)?;
     let run = respond(&case, progress)?;
     let Some(out) = out else { return Ok((case, run)) };
     let mut files = respond_figures(&case, &run)?;

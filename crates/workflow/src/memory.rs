@@ -1,9 +1,10 @@
 //! Whether a model fits into memory, estimated before any of it is factorised.
 
-use crate::load::{Case, IdentifyCase};
+use crate::load::Case;
 use frfit_linalg::c64;
-use frfit_linalg::solve::{Breakdown, FactorMemory};
+use frfit_linalg::solve::{Analysis, Breakdown, FactorMemory};
 use std::fmt;
+use std::sync::Arc;
 
 /// Vectors of a subspace to reckon with, beside the one factor that it has at a time.
 const VECTORS: usize = 256;
@@ -56,58 +57,79 @@ fn bytes(count: u64) -> String {
     format!("{value:.3} {}", UNITS[unit])
 }
 
-/// Refuses an identification that does not fit into `limit` bytes, or without one into what the system says is available.
+/// Sees that an identification fits into `limit` bytes, or without one into what the system says is available: with factors in double precision, or else in
+/// single precision.
 ///
 /// # Errors
-/// [`MemoryError`] with the numbers.
+/// [`MemoryError`] with the numbers, where neither fits.
 ///
 /// # Limits
-/// An estimate: exact for the real factors, an experience for the complex ones. Where the system does not say what is available, nothing is refused.
-pub fn check_identify(case: &Case, identify: &IdentifyCase, limit: Option<u64>) -> Result<(), MemoryError> {
+/// An estimate: exact for the real factors, an experience for the complex ones. Where the system does not say what is available, everything fits.
+pub fn fit_identify(case: &mut Case, limit: Option<u64>) -> Result<(), MemoryError> {
+    let Some(identify) = &case.identify else { return Ok(()) };
     let dofs = case.model.dim();
     let options = &identify.options;
     let reduced = options.reduction.is_subspace(options.method, dofs, identify.frequency_hz.len());
     let factors = if dofs > MAX_COUNTED_DOFS { 1 } else { 2 };
-    if reduced || !identify.is_single() {
-        check_subspace(case, factors, limit)
-    } else {
-        check_full(case, limit)
-    }
+    if reduced || !identify.is_single() { fit_subspace(case, factors, limit) } else { fit_full(case, limit) }
 }
 
 /// The same for the subspace of a band, with so many factors at a time.
 ///
 /// # Errors
 /// [`MemoryError`] with the numbers.
-pub fn check_subspace(case: &Case, factors: usize, limit: Option<u64>) -> Result<(), MemoryError> {
-    let basis = 8 * case.model.dim() * VECTORS;
-    let what = match factors {
-        1 => format!("one real factor and {VECTORS} vectors"),
-        _ => format!("{factors} real factors and {VECTORS} vectors"),
-    };
-    check(case, case.model.analysis().factor_memory::<f64>(), factors, basis, what, limit)
+pub fn fit_subspace(case: &mut Case, factors: usize, limit: Option<u64>) -> Result<(), MemoryError> {
+    fit(case, |analysis| check(analysis, factors, limit))
 }
 
 /// The same for a computation on the full model: a complex factor a thread.
 ///
 /// # Errors
 /// [`MemoryError`] with the numbers.
-pub fn check_full(case: &Case, limit: Option<u64>) -> Result<(), MemoryError> {
+pub fn fit_full(case: &mut Case, limit: Option<u64>) -> Result<(), MemoryError> {
     // The nominal factor and that of the check, in each thread.
     let factors = 2 * rayon::current_num_threads();
     let what = format!("{factors} complex factors");
-    check(case, case.model.analysis().factor_memory::<c64>(), factors, 0, what, limit)
+    fit(case, |analysis| refuse(analysis, analysis.factor_memory::<c64>(), factors, 0, what.clone(), limit))
 }
 
-fn check(
-    case: &Case,
+/// Refuses a subspace with so many factors in double precision at a time.
+///
+/// # Errors
+/// [`MemoryError`] with the numbers.
+pub fn check_subspace(case: &Case, factors: usize, limit: Option<u64>) -> Result<(), MemoryError> {
+    check(case.model.analysis(), factors, limit)
+}
+
+/// Takes factors in single precision where those in double do not fit.
+fn fit(case: &mut Case, check: impl Fn(&Analysis) -> Result<(), MemoryError>) -> Result<(), MemoryError> {
+    let Err(error) = check(case.model.analysis()) else { return Ok(()) };
+    let fits = |single: &Analysis| check(single).is_ok();
+    if case.model.analysis().in_single_precision().as_ref().is_some_and(fits) {
+        Arc::make_mut(&mut case.model).use_single_precision();
+        return Ok(());
+    }
+    Err(error)
+}
+
+fn check(analysis: &Analysis, factors: usize, limit: Option<u64>) -> Result<(), MemoryError> {
+    let basis = 8 * analysis.dim() * VECTORS;
+    let what = match factors {
+        1 => format!("one real factor and {VECTORS} vectors"),
+        _ => format!("{factors} real factors and {VECTORS} vectors"),
+    };
+    refuse(analysis, analysis.factor_memory::<f64>(), factors, basis, what, limit)
+}
+
+fn refuse(
+    analysis: &Analysis,
     factor: Result<FactorMemory, Breakdown>,
     count: usize,
     beside: usize,
     what: String,
     limit: Option<u64>,
 ) -> Result<(), MemoryError> {
-    let dofs = case.model.dim();
+    let dofs = analysis.dim();
     if let Err(Breakdown::Engine(words)) = factor {
         return Err(MemoryError { dofs, needed: None, available: 0, what, engine: Some(words) });
     }

@@ -1,10 +1,12 @@
 //! No solution leaves unchecked: finite, true residual, one refinement step, a typed outcome.
 
+use super::memory::bytes_of;
 use super::{Factor, Symbolic};
 use crate::Scalar;
 use crate::dense::symmetric_eigen;
 use crate::scalar::max_modulus;
 use crate::sparse::Pattern;
+use std::collections::VecDeque;
 use std::fmt;
 use std::sync::Arc;
 
@@ -18,6 +20,12 @@ const REFUSE_ABOVE: f64 = 1e-8;
 /// A matrix whose condition number is certainly above this (‖A‖·‖x‖/‖b‖ bounds it from below) is singular
 /// to working precision: no digit of the solution is left.
 const SINGULAR_ABOVE: f64 = 1e16;
+
+/// Solutions that are refined together.
+const MAX_REFINED_AT_ONCE: usize = 4;
+
+/// Corrections that a refinement keeps, and steps within which it has to halve its error: as many eigenvalues near zero as single precision may have lost at once.
+const MAX_CORRECTIONS: usize = 6;
 
 /// A factorised symmetric matrix whose solutions are checked against the matrix itself.
 pub struct CheckedFactor<T> {
@@ -133,14 +141,13 @@ impl<T: Scalar> CheckedFactor<T> {
         let inaccurate: Vec<usize> = (0..errors.len()).filter(|&k| errors[k] > REFINE_ABOVE).collect();
         let report = |backward_error| SolveReport { backward_error, condition_at_least: 0.0, refined: false };
         let mut reports: Vec<SolveReport> = errors.into_iter().map(report).collect();
-        if !inaccurate.is_empty() {
-            let of = |all: &[T]| inaccurate.iter().flat_map(|&k| &all[k * n..][..n]).copied().collect();
-            let mut refined: Vec<T> = of(rhs);
-            let mut corrections: Vec<T> = of(&residuals);
-            self.factor.solve_in_place(&mut corrections, self.threads)?;
-            refined.iter_mut().zip(&corrections).for_each(|(x, dx)| *x += *dx);
-            let (_, errors) = self.residuals(&of(&given), &refined)?;
-            for ((&k, x), backward_error) in inaccurate.iter().zip(refined.chunks_exact(n)).zip(errors) {
+        let at_once = if self.factor.max_refinements() > 1 { MAX_REFINED_AT_ONCE } else { given.len() / n };
+        for columns in inaccurate.chunks(at_once.max(1)) {
+            let of =
+                |all: &[T]| -> Vec<T> { columns.iter().flat_map(|&k| &all[k * n..][..n]).copied().collect() };
+            let (given, mut refined) = (of(&given), of(rhs));
+            let errors = self.refine(&given, &mut refined, of(&residuals))?;
+            for ((&k, x), backward_error) in columns.iter().zip(refined.chunks_exact(n)).zip(errors) {
                 rhs[k * n..][..n].copy_from_slice(x);
                 reports[k] = SolveReport { refined: true, ..report(backward_error) };
             }
@@ -152,6 +159,58 @@ impl<T: Scalar> CheckedFactor<T> {
             worst.refined |= report.refined;
         }
         Ok(worst)
+    }
+
+    /// One step of refinement, x += M⁻¹ r with the factor M and the residual r = b − A x; with a factor in single precision as many as it takes.
+    ///
+    /// A further step takes its correction z = M⁻¹ r as far as makes the residual least, with the corrections before it (GCR): single precision loses
+    /// the directions of eigenvalues near zero, and each of them takes a step. Returns the backward errors.
+    ///
+    /// # Source
+    /// S. C. Eisenstat, H. C. Elman, M. H. Schultz, SIAM J. Numer. Anal. 20 (1983) 345–357.
+    fn refine(&self, b: &[T], x: &mut [T], mut residuals: Vec<T>) -> Result<Vec<f64>, Breakdown> {
+        let n = self.dim();
+        self.factor.solve_in_place(&mut residuals, self.threads)?;
+        x.iter_mut().zip(&residuals).for_each(|(x, dx)| *x += *dx);
+        let (mut residuals, mut errors) = self.residuals(b, x)?;
+        // Corrections z, and A z at right angles to each other.
+        let mut before: VecDeque<[Vec<T>; 2]> = VecDeque::new();
+        let mut earlier = f64::INFINITY;
+        for step in 1..self.factor.max_refinements() {
+            let worst = errors.iter().copied().fold(0.0, f64::max);
+            let is_checkpoint = step % MAX_CORRECTIONS == 0;
+            if worst <= REFINE_ABOVE || (is_checkpoint && worst > 0.5 * earlier) {
+                break;
+            }
+            if is_checkpoint {
+                earlier = worst;
+            }
+            let mut corrections = residuals.clone();
+            self.factor.solve_in_place(&mut corrections, self.threads)?;
+            let mut products = vec![T::default(); corrections.len()];
+            T::multiply_subtract(&self.pattern, &self.values, &corrections, &mut products);
+            products.iter_mut().for_each(|product| *product = -*product);
+            for (column, error) in (0..x.len()).step_by(n).map(|start| start..start + n).zip(&mut errors) {
+                let (z, q) = (&mut corrections[column.clone()], &mut products[column.clone()]);
+                for [zs, qs] in &before {
+                    let older = &qs[column.clone()];
+                    let share = -part_along(older, q);
+                    add(share, older, q);
+                    add(share, &zs[column.clone()], z);
+                }
+                let (x, residual) = (&mut x[column.clone()], &mut residuals[column.clone()]);
+                let share = part_along(q, residual);
+                add(share, z, x);
+                add(-share, q, residual);
+                *error = self.relative(residual, &b[column], x)?;
+            }
+            before.push_back([corrections, products]);
+            if before.len() > MAX_CORRECTIONS {
+                before.pop_front();
+            }
+        }
+        // Of several steps the residuals were updated; what counts is the true one.
+        Ok(if before.is_empty() { errors } else { self.residuals(b, x)?.1 })
     }
 
     fn judge(&self, b: &[T], x: &[T], report: SolveReport) -> Result<SolveReport, Breakdown> {
@@ -172,14 +231,17 @@ impl<T: Scalar> CheckedFactor<T> {
         let mut residuals = b.to_vec();
         T::multiply_subtract(&self.pattern, &self.values, x, &mut residuals);
         let columns = residuals.chunks_exact(n).zip(b.chunks_exact(n).zip(x.chunks_exact(n)));
-        let relative = |(residual, (b, x)): (&[T], (&[T], &[T]))| {
-            let scale = self.norm * max_modulus(x) + max_modulus(b);
-            let relative = if scale > 0.0 { max_modulus(residual) / scale } else { 0.0 };
-            let finite = relative.is_finite() && scale.is_finite();
-            finite.then_some(relative).ok_or(Breakdown::Singular { condition_at_least: f64::INFINITY })
-        };
-        let errors = columns.map(relative).collect::<Result<_, _>>()?;
+        let errors =
+            columns.map(|(residual, (b, x))| self.relative(residual, b, x)).collect::<Result<_, _>>()?;
         Ok((residuals, errors))
+    }
+
+    /// ‖r‖∞ / (‖A‖∞‖x‖∞ + ‖b‖∞).
+    fn relative(&self, residual: &[T], b: &[T], x: &[T]) -> Result<f64, Breakdown> {
+        let scale = self.norm * max_modulus(x) + max_modulus(b);
+        let relative = if scale > 0.0 { max_modulus(residual) / scale } else { 0.0 };
+        let finite = relative.is_finite() && scale.is_finite();
+        finite.then_some(relative).ok_or(Breakdown::Singular { condition_at_least: f64::INFINITY })
     }
 }
 
@@ -205,6 +267,26 @@ impl<T> fmt::Debug for CheckedFactor<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("CheckedFactor").field("dim", &self.pattern.dim()).finish_non_exhaustive()
     }
+}
+
+/// Bytes that the refinement of solutions with a factor in single precision takes at most.
+pub(super) fn refinement_bytes<T>(n: usize) -> usize {
+    // Of each column: corrections and their products, those at hand, right-hand side, solution and residual.
+    bytes_of::<T>(n.saturating_mul(MAX_REFINED_AT_ONCE * (2 * MAX_CORRECTIONS + 5)))
+}
+
+/// qᴴr / qᴴq; 0 for q = 0.
+fn part_along<T: Scalar>(q: &[T], r: &[T]) -> T {
+    let dot = |a: &[T], b: &[T]| {
+        a.iter().zip(b).fold(T::default(), |sum, (a, b)| sum + multifrontal::Scalar::conjugate(*a) * *b)
+    };
+    let size = dot(q, q);
+    if size.modulus() > 0.0 { dot(q, r) / size } else { T::default() }
+}
+
+/// y += a x.
+fn add<T: Scalar>(a: T, x: &[T], y: &mut [T]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y += a * *x);
 }
 
 /// ‖A‖∞ = max over rows of Σ|a|; NaN where a value is NaN.

@@ -27,6 +27,11 @@ pub trait Symbolic<T: Scalar>: Send + Sync {
     /// # Errors
     /// [`Breakdown`] where the factor cannot fit, here or where the engine runs.
     fn memory(&self) -> Result<FactorMemory, Breakdown>;
+
+    /// The same with factors in single precision, where the engine has them.
+    fn in_single_precision(self: Arc<Self>) -> Option<Arc<dyn Symbolic<T>>> {
+        None
+    }
 }
 
 /// A factorised matrix.
@@ -36,6 +41,11 @@ pub trait Factor<T: Scalar>: Send + Sync {
     /// # Errors
     /// [`Breakdown::Engine`] where the engine fails.
     fn solve_in_place(&self, rhs: &mut [T], threads: usize) -> Result<(), Breakdown>;
+
+    /// Refinement steps that its solutions may take: one mends what pivoting leaves, more are for a factor in single precision.
+    fn max_refinements(&self) -> usize {
+        1
+    }
 
     /// Eigenvalues below zero, where the engine counts them: of real matrices.
     fn negative_eigenvalues(&self) -> Option<usize>;

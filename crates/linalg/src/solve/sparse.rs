@@ -1,10 +1,11 @@
 //! Sparse symmetric matrices, definite or not, real or complex: L D Lᵀ by [`multifrontal`].
 
+use super::checked::refinement_bytes;
 use super::memory::FactorMemory;
 use super::{Breakdown, Factor, Symbolic};
 use crate::Scalar;
 use crate::sparse::Pattern;
-use multifrontal::{FactorError, Options, PatternError, Threads};
+use multifrontal::{FactorError, Options, PatternError, RoundedFactor, Threads};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
@@ -47,21 +48,66 @@ impl Sparse {
     }
 }
 
+/// The same with factors in single precision.
+struct Single(Arc<Sparse>);
+
+/// Refinement steps with a factor in single precision: each gains some seven digits, or finds one more direction that single precision has lost.
+const MAX_SINGLE_REFINEMENTS: usize = 24;
+
+fn options(threads: usize) -> Options {
+    Options::default().with_threads(self::threads(threads))
+}
+
+fn breakdown(error: FactorError) -> Breakdown {
+    match error {
+        FactorError::NotFinite { .. } => Breakdown::NotFinite,
+        FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
+        // One value an entry is asserted before, and nothing is solved yet: what is left is memory.
+        _ => Breakdown::OutOfMemory,
+    }
+}
+
 impl<T: Scalar> Symbolic<T> for Sparse {
     fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown> {
-        let options = Options::default().with_threads(self::threads(threads));
-        let factor = self.symbolic()?.factor(values, &options).map_err(|error| match error {
-            FactorError::NotFinite { .. } => Breakdown::NotFinite,
-            FactorError::Singular { .. } => Breakdown::Singular { condition_at_least: f64::INFINITY },
-            // One value an entry is asserted before, and nothing is solved yet: what is left is memory.
-            _ => Breakdown::OutOfMemory,
-        })?;
-        Ok(Box::new(factor))
+        Ok(Box::new(self.symbolic()?.factor(values, &options(threads)).map_err(breakdown)?))
     }
 
     fn memory(&self) -> Result<FactorMemory, Breakdown> {
         let symbolic = self.symbolic()?;
         Ok(FactorMemory { kept: symbolic.factor_bytes::<T>(), scratch: symbolic.working_bytes::<T>() })
+    }
+
+    fn in_single_precision(self: Arc<Self>) -> Option<Arc<dyn Symbolic<T>>> {
+        Some(Arc::new(Single(self)))
+    }
+}
+
+impl<T: Scalar> Symbolic<T> for Single {
+    fn factor(&self, values: &[T], threads: usize) -> Result<Box<dyn Factor<T>>, Breakdown> {
+        Ok(Box::new(self.0.symbolic()?.factor_rounded(values, &options(threads)).map_err(breakdown)?))
+    }
+
+    fn memory(&self) -> Result<FactorMemory, Breakdown> {
+        let symbolic = self.0.symbolic()?;
+        let kept = symbolic.rounded_factor_bytes::<T>();
+        // Factorisation and refinement do not run at the same time.
+        let scratch = symbolic.rounded_working_bytes::<T>().max(refinement_bytes::<T>(symbolic.dim()));
+        Ok(FactorMemory { kept, scratch })
+    }
+}
+
+impl<T: Scalar> Factor<T> for RoundedFactor<T> {
+    fn solve_in_place(&self, rhs: &mut [T], threads: usize) -> Result<(), Breakdown> {
+        RoundedFactor::solve_in_place(self, rhs, self::threads(threads));
+        Ok(())
+    }
+
+    fn max_refinements(&self) -> usize {
+        MAX_SINGLE_REFINEMENTS
+    }
+
+    fn negative_eigenvalues(&self) -> Option<usize> {
+        Some(self.inertia().negative)
     }
 }
 

@@ -95,7 +95,7 @@ pub fn modes_case(
 /// # Errors
 /// As [`modes_case`], but for what is written.
 pub fn modes_loaded(case: Case, place: &Place, options: &ModesOptions) -> Result<ModesJob, JobError> {
-    // Undamped modes are found with a factor of their own.
+    // Undamped modes are found with a factor of their own, and counted: single precision might count wrong.
     check_subspace(&case, 2, options.memory_bytes)?;
     let run = modes(&case, options).map_err(|error| {
         let expected = match error {

@@ -24,7 +24,7 @@ pub use run::{NextSensor, NoiseFrom, Place, Sensitivity, SensitivityOptions, Sen
 use crate::figures::sensitivity_figure;
 use crate::job_error::JobError;
 use crate::load::{Case, Overrides, Purpose, load};
-use crate::memory::check_subspace;
+use crate::memory::fit_subspace;
 use crate::output::{File, Words, check_folder, write_result};
 use frfit_linalg::solve::Breakdown;
 use std::path::Path;
@@ -73,8 +73,11 @@ pub fn sensitivities_case(
 ///
 /// # Errors
 /// As [`sensitivities_case`], but for what is written.
-pub fn sensitivities_loaded(case: Case, options: &SensitivityOptions) -> Result<SensitivityJob, JobError> {
-    check_subspace(&case, 1, options.memory_bytes)?;
+pub fn sensitivities_loaded(
+    mut case: Case,
+    options: &SensitivityOptions,
+) -> Result<SensitivityJob, JobError> {
+    fit_subspace(&mut case, 1, options.memory_bytes)?;
     let run = sensitivities(&case, options)?;
     let (summary, text) = match &run {
         Ok(run) => (summary::json(&case, run), report::text(&case, run)),
