@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Options of every command stand last, whatever else there is.
 const LAST: usize = 1000;
 
-/// Correct a finite element model until its frequency response is the measured one.
+/// Update a finite element model until its FRFs match a test.
 #[derive(Debug, Parser)]
 #[command(name = "frfit", version, arg_required_else_help = true)]
 pub(crate) struct Args {
@@ -39,7 +39,7 @@ pub(crate) enum Command {
         after_help = "Example: frfit example rubber-bar bar && frfit identify bar/case.toml --out bar/out"
     )]
     Example(Example),
-    /// Make a frequency response function of the records of a hammer test
+    /// Compute FRFs from the records of a hammer test
     #[command(after_help = "Examples: frfit frf records.lvm -o frf.uff\n          \
                       frfit frf impacts.csv -o frf.csv --force-sensitivity 22.4mV/N --response-sensitivity 100mV/g\n\n\
                       Records: UFF time functions, LabVIEW measurement files (.lvm), tables with a column time_s and units in the \
@@ -59,8 +59,8 @@ pub(crate) enum Command {
     /// Train the reduced model of a case once, for many identifications
     #[command(
         after_help = "Example: frfit train case.toml --out model.frfit && frfit identify case.toml --reduced model.frfit --out results\n\n\
-                      It serves every case with the same matrices, load and sensors: other specimens, temperatures, bounds, laws. Within the band and the box of the \
-                      unknowns that it was trained for nothing is factorised; beyond them a run trains further."
+                      It serves every case with the same matrices, load and sensors: other specimens, temperatures, bounds, laws. Within the band and the \
+                      range of the unknowns that it was trained for no factorisation is needed; beyond them a run trains further."
     )]
     Train(Train),
     /// Do many identifications by one plan, a table of cases and of the values that differ
@@ -239,16 +239,16 @@ pub(crate) struct Identify {
     /// Order of the series, in place of the case's
     #[arg(long, value_name = "N")]
     pub(crate) order: Option<usize>,
-    /// Method, in place of the case's
+    /// Method: rational, series or nelder-mead
     #[arg(long)]
     pub(crate) method: Option<String>,
-    /// Selection of one of several roots, in place of the case's
+    /// Choice among several solutions: joint or smallest
     #[arg(long)]
     pub(crate) selection: Option<String>,
-    /// What answers at a frequency (auto, full, subspace), in place of the case's
+    /// Model at each frequency: full, subspace (reduced), or auto
     #[arg(long)]
     pub(crate) reduction: Option<String>,
-    /// Reduced model of frfit train, for the same matrices, load and sensors: nothing is trained again within its box
+    /// Reduced model of frfit train, for the same matrices, load and sensors; within its band and its range of the unknowns no factorisation is needed
     #[arg(long, value_name = "FILE")]
     pub(crate) reduced: Option<PathBuf>,
     /// File for the reduced model as this run leaves it, for other runs
@@ -257,7 +257,7 @@ pub(crate) struct Identify {
     /// Memory that may be used, in MB (by default what is available): a model that needs more is refused
     #[arg(long, value_name = "MB")]
     pub(crate) memory: Option<u64>,
-    /// Frequencies at which the error is mapped over the orders; 0 for no map (default: 60, above 300 dofs 30, above 5000 none)
+    /// Only for `--method series`: number of frequencies in the plot of the error over the order; 0 for no plot (default: 60, above 300 dofs 30, above 5000 none)
     #[arg(long, value_name = "N")]
     pub(crate) error_map: Option<usize>,
     /// Exit with 1 where some frequency has no trusted answer
@@ -508,8 +508,7 @@ pub(crate) struct Inspect {
     /// Files
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Take the two files as K and M and give so many of their first natural frequencies (12 of any two
-    /// files that are such)
+    /// Number of the first natural frequencies to print (default 12, if the two files are K and M)
     #[arg(long, value_name = "COUNT")]
     pub(crate) modes: Option<usize>,
 }

@@ -1,4 +1,4 @@
-//! Correct a finite element model until its frequency response is the measured one.
+//! Update a finite element model until its FRFs match a test.
 //!
 //! The dynamic stiffness of a linear structure is affine in its parameters, P-10:
 //! $$ D(\omega) = A_0(\omega) + \sum_j c_j A_j(\omega), \qquad D x = F. $$

@@ -143,7 +143,7 @@ static EXAMPLES: [Example; 12] = [
     },
     Example {
         name: "joint-stiffness",
-        summary: "two beams on a joint: how stiff it is and how much it damps, one for the band",
+        summary: "two beams on a joint: stiffness and loss factor of the joint, one value for the band",
         case: include_str!("../cases/joint-stiffness/case.toml"),
         readme: include_str!("../cases/joint-stiffness/README.md"),
         unknown: Several(|| joint_stiffness(20)),
@@ -153,7 +153,7 @@ static EXAMPLES: [Example; 12] = [
     },
     Example {
         name: "added-mass",
-        summary: "beam with a component on it: the mass of the one, the modulus of the other",
+        summary: "beam with a component on it: mass of the component and modulus of the beam",
         case: include_str!("../cases/added-mass/case.toml"),
         readme: include_str!("../cases/added-mass/README.md"),
         unknown: Several(|| added_mass(40)),
@@ -163,7 +163,7 @@ static EXAMPLES: [Example; 12] = [
     },
     Example {
         name: "two-meshes",
-        summary: "clamped nylon plate on a coarse mesh: a coarser one says how far it is off",
+        summary: "clamped nylon plate on a coarse mesh: the mesh error, from a second, coarser mesh",
         case: include_str!("../cases/two-meshes/case.toml"),
         readme: include_str!("../cases/two-meshes/README.md"),
         unknown: Unknown::Meshes(two_meshes, Meshes { measured: 36, model: 12, coarser: 6 }),
