@@ -7,16 +7,18 @@ use common::done;
 /// A report without what differs between machines: seconds, and what hangs on the last bit (the largest error, the number of
 /// steps in which a spectral radius converges).
 fn portable(text: &str) -> String {
+    let estimated = |line: &str| match line.split_once("to ") {
+        Some((before, _)) => format!("{before}to [error] (estimated)"),
+        None => line.to_owned(),
+    };
     let masked = |line: &str| match line.split_whitespace().next() {
         Some("error") => "  error             at most [roundoff] (where ok)".to_owned(),
         Some("work") => match line.split_once(',') {
             Some((factorisations, _)) => format!("{factorisations}, [solves], [seconds]"),
             None => line.to_owned(),
         },
-        Some("subspace") | Some("of") => match line.split_once("to ") {
-            Some((before, _)) => format!("{before}to [error] (estimated)"),
-            None => line.to_owned(),
-        },
+        Some("subspace") => estimated(line),
+        _ if line.contains(" places compared; ") => estimated(line),
         _ => line.to_owned(),
     };
     text.lines().map(|line| masked(line) + "\n").collect()

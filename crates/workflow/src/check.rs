@@ -259,7 +259,7 @@ fn words(case: &Case, fault: &Fault, sensors: &[usize]) -> (&'static str, String
         Fault::Mesh { row_hz, top_hz } => (
             "mesh",
             format!(
-                "the band goes up to {} Hz, where the mesh is too coarse: rows that move alone vibrate at {} Hz",
+                "the band goes up to {} Hz, where the mesh is too coarse: the natural frequency of a single row, all others held, is {} Hz",
                 number(*top_hz),
                 number(*row_hz)
             ),

@@ -41,7 +41,7 @@ impl Trust {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Status {
-    /// One value, and no test speaks against it.
+    /// One value explains the sensors, and no other does nearly as well.
     Ok,
     /// Several values explain the measurement; the likeliest is given with its rivals.
     Ambiguous,
@@ -88,7 +88,7 @@ impl Status {
                 name: "ok",
                 label: "trusted",
                 trust: Trust::Trusted,
-                meaning: "one value, and no test speaks against it",
+                meaning: "one value explains the sensors, and no other does nearly as well",
             },
             Self::Ambiguous => About {
                 name: "ambiguous",

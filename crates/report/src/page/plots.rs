@@ -212,7 +212,7 @@ fn plane(results: &Results) -> String {
         (
             "wicket",
             "Wicket plot",
-            "Loss factor over storage modulus, both logarithmic. Points beside the curve have a fault of frequency or temperature, or belong to another solution.",
+            "Loss factor over storage modulus, both logarithmic. Points beside the curve are another solution, another temperature, or an error of the model.",
         ),
     ];
     let complex = || results.curves().filter(|(.., one)| !one.real);

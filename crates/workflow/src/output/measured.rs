@@ -126,7 +126,7 @@ fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
         }
     }
     if measured.averages() == 1 {
-        warnings.push("a single impact: no coherence, and no word about the noise".to_owned());
+        warnings.push("a single impact: no coherence, and no estimate of the noise".to_owned());
     }
     let excited = excited_to_hz(measured);
     if let (Some(excited), Some(last)) = (excited, measured.frequency_hz.last())

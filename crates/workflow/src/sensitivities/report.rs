@@ -162,7 +162,7 @@ fn next_in_words(case: &Case, run: &SensitivityRun, next: &NextSensor) -> Vec<St
     }
     let good = if next.trained.converged { "" } else { "; that is more than was asked for" };
     lines.push(format!(
-        "of {} candidates, the best really added: derivatives there to {:.1e} (estimated){good}",
+        "{} places compared; the best ones were computed again with a sensor there: derivatives to {:.1e} (estimated){good}",
         next.compared, next.trained.error
     ));
     lines
