@@ -177,7 +177,7 @@ impl LawKind {
     pub fn formula(self) -> &'static str {
         match self {
             Self::Constant => "E = storage (1 + i loss_factor), P-31.",
-            Self::Fractional => "E = e0 + e1 (iω)^alpha (P-36).",
+            Self::Fractional => "E = e0 + e1 (iω)^alpha.",
             Self::FractionalZener => "E = (e0 + e_infinity (iω tau)^alpha) / (1 + (iω tau)^alpha).",
             Self::Maxwell { .. } => {
                 "E = e0 + Σ modulus · iω time / (1 + iω time) over the branches (generalised Maxwell, Prony)."

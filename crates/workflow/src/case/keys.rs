@@ -446,7 +446,7 @@ damping = 0.2
 pub(super) static MEASUREMENT: Section = Section {
     path: "measurement",
     title: "`[[measurement]]`",
-    about: "Each table is one FRF.\n`frfit sensitivities` and `frfit respond` need only the DOF of the sensor.\nWithout files `frfit modes` shows only the model.",
+    about: "Each table is one FRF.\n`frfit sensitivities` and `frfit respond` need only the DOF of the sensor.\nWithout files `frfit modes` shows only the model.\nThe columns of a CSV file are separated by commas, semicolons or tabs.\nNumbers have a decimal point; with semicolons or tabs they may have a decimal comma.\nThe frequencies may be in any order, each of them once.",
     keys: &[
         key(
             "file",

@@ -20,13 +20,7 @@ pub fn reference() -> String {
     page
 }
 
-const HEAD: &str = "# Reference of the case file
-
-This page is generated from the list of keys in the reader of case files.
-`FRFIT_RENEW=1 cargo test -p frfit-workflow --lib reference` writes it again.
-A test fails if the page is out of date.
-A test also reads every example and finds each key in one of them.
-";
+const HEAD: &str = "# Reference of the case file\n";
 
 /// Text of a table's cell: a stroke would begin the next one.
 fn cell(text: &str) -> String {
@@ -167,7 +161,7 @@ mod tests {
         let committed = std::fs::read_to_string(&page).unwrap().replace("\r\n", "\n");
         assert!(
             committed == reference(),
-            "{} is not the reference; its head says how to renew it",
+            "{} is not the reference; CONTRIBUTING.md says how to renew it",
             page.display()
         );
     }
