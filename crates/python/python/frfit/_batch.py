@@ -109,7 +109,7 @@ def train(
     Raises
     ------
     InputError, OutsideTableError, ModelMemoryError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     band = optional_pair(band_hz, "band_hz")
     return Trained(**_frfit.train(path, out, band, reduced, optional_whole(memory_bytes, "memory_bytes", 0)))
@@ -134,7 +134,7 @@ def batch(
     Raises
     ------
     InputError, WriteError
-        With the text of the command line. A run that fails is in ``failed`` of what is returned.
+        The exception has the message that the command line prints. A run that fails is in ``failed`` of what is returned.
     """
     index, count = whole(shard[0], "shard"), whole(shard[1], "shard")
     if not 1 <= index <= count:

@@ -514,7 +514,8 @@ def identify(
     coarser_mesh
         The same structure on a coarser mesh, by which the error of this one is measured.
     max_lines
-        The largest number of frequencies that are used: the most informative ones. The others are ``out_of_band``.
+        The largest number of frequencies: half evenly spread, half where the measurement changes fastest.
+        The others are ``out_of_band``.
     law
         ``"constant"``, ``"fractional"``, ``"zener"``, ``"maxwell:N"`` or several: fitted to the whole band.
     progress
@@ -646,7 +647,7 @@ def run_case(
     Raises
     ------
     InputError, OutsideTableError, ModelMemoryError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     found = _frfit.run_case(
         path,

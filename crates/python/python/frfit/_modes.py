@@ -174,7 +174,7 @@ def modes(
     Raises
     ------
     InputError, ModelError, OutsideTableError, ModelMemoryError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     band = optional_pair(band_hz, "band_hz")
     largest = optional_whole(max_order, "max_order", 2)

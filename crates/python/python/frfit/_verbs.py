@@ -175,7 +175,7 @@ def check(
     Raises
     ------
     InputError, ModelError, OutsideTableError, ModelMemoryError
-        With the text of the command line.
+        The exception has the message that the command line prints.
 
     Examples
     --------
@@ -262,7 +262,7 @@ def sensitivities(
     Raises
     ------
     InputError, OptionsError, ModelMemoryError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     part = optional_number(noise, "noise")
     if part is not None and not 0.0 < part < float("inf"):
@@ -325,7 +325,7 @@ def fit(
     Raises
     ------
     InputError, OptionsError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     only = None if where is None else (word(where[0], "where"), word(where[1], "where"))
     text, found = _frfit.fit(table, words(laws, "laws"), only, out)
@@ -395,7 +395,7 @@ def export(
     Raises
     ------
     InputError, OptionsError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     how = {
         "unit_system": unit_system,
@@ -479,7 +479,7 @@ def convert(
     Raises
     ------
     InputError, OptionsError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     how = {
         "to": to,
@@ -514,7 +514,7 @@ def respond_case(
     Raises
     ------
     InputError, OutsideTableError, ModelMemoryError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     limit = optional_whole(memory_bytes, "memory_bytes", 0)
     found = _frfit.respond_case(path, out, optional_pair(band_hz, "band_hz"), limit, callable_(progress))
@@ -554,7 +554,7 @@ def frf_of_files(
     Raises
     ------
     InputError, OptionsError, WriteError
-        With the text of the command line.
+        The exception has the message that the command line prints.
     """
     files: list[_Path]
     if isinstance(records, str | os.PathLike):
