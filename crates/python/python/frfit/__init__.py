@@ -1,4 +1,4 @@
-"""frfit corrects a finite element model until its frequency response is the measured one.
+"""frfit updates a finite element model until its frequency response functions (FRFs) match a test.
 
 Matrices are SciPy's, everything else is NumPy's. Units are SI unless a name says otherwise, the time convention is
 exp(+i omega t), rows are counted from 0. What does not exist is NaN, and ``status`` says why.
