@@ -185,25 +185,25 @@ pub(crate) struct Frf {
     #[arg(long)]
     pub(crate) estimator: Option<frfit::signal::Estimator>,
     /// Force from which on there is an impact (default: a tenth of the largest)
-    #[arg(long, value_name = "NEWTON")]
+    #[arg(long, value_name = "NEWTON", value_parser = number, allow_negative_numbers = true)]
     pub(crate) trigger: Option<f64>,
     /// Time before the trigger that belongs to a record
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_negative_numbers = true)]
     pub(crate) pre_trigger: Option<f64>,
     /// Length of a record (default: that of a recording with one impact, else up to the next impact)
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_negative_numbers = true)]
     pub(crate) length: Option<f64>,
     /// Share of an impact that a second contact must reach to be called a double impact
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", value_parser = number, allow_negative_numbers = true)]
     pub(crate) double_impact: Option<f64>,
     /// Share of a channel's largest value by which its mean may move
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", value_parser = number, allow_negative_numbers = true)]
     pub(crate) drift: Option<f64>,
     /// Force window: zero from so long after the trigger
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_negative_numbers = true)]
     pub(crate) force_window: Option<f64>,
     /// Exponential window: time constant of the decay that is put on both channels; `frfit identify` takes it into the model
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_negative_numbers = true)]
     pub(crate) exponential_window: Option<f64>,
     /// Impacts to average whatever is wrong with them, such as 1,3
     #[arg(long, value_name = "IMPACTS", value_delimiter = ',')]
@@ -393,13 +393,13 @@ pub(crate) struct Export {
     #[arg(long, value_name = "SYSTEM")]
     pub(crate) unit_system: Option<UnitSystem>,
     /// Poisson's ratio, taken as real and constant; a solver needs it
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
     pub(crate) poisson: Option<f64>,
     /// Density in kg/m^3, in any unit system (default: none is written)
-    #[arg(long, value_name = "DENSITY")]
+    #[arg(long, value_name = "DENSITY", value_parser = number, allow_negative_numbers = true)]
     pub(crate) density: Option<f64>,
     /// Modulus in Pa that the matrix was made with, where the table's factors are relative to it
-    #[arg(long, value_name = "PASCAL")]
+    #[arg(long, value_name = "PASCAL", value_parser = number, allow_negative_numbers = true)]
     pub(crate) modulus: Option<f64>,
     /// Values of the best law in a law.json, at every frequency of the table
     #[arg(long, value_name = "LAW.JSON")]
@@ -493,7 +493,7 @@ pub(crate) struct Sensitivities {
     #[arg(long, value_name = "FILE")]
     pub(crate) reduced: Option<PathBuf>,
     /// Standard deviation of a response over the response, such as 0.02 (default: as the files of all measurements say, else 0.01)
-    #[arg(long, value_name = "PART", value_parser = part)]
+    #[arg(long, value_name = "PART", value_parser = part, allow_negative_numbers = true)]
     pub(crate) noise: Option<f64>,
     /// Where the next sensor may go: all (translations), none, or a list such as 12+Z,55+Z or 41 (a row)
     #[arg(long, value_name = "DOFS", default_value = "all")]
@@ -572,6 +572,11 @@ fn cell(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .ok_or_else(|| format!("expected a column and a value such as T=20, found {text:?}"))?;
     Ok((column.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A number, which the options judge.
+fn number(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| format!("expected a number such as 0.5, found {text:?}"))
 }
 
 /// A part of a whole, above zero.

@@ -80,8 +80,9 @@ fn a_model_that_does_not_fit_into_memory() {
 fn a_model_whose_factors_fit_in_single_precision() {
     let folder = tempfile::tempdir().unwrap();
     done(folder.path(), &["--quiet", "example", "clamped-plate", "plate"]);
-    let arguments =
-        |out, memory| ["identify", "plate/case.toml", "--method", "rational", "--out", out, "--memory", memory];
+    let arguments = |out, memory| {
+        ["identify", "plate/case.toml", "--method", "rational", "--out", out, "--memory", memory]
+    };
     let refusal = refused(folder.path(), &arguments("none", "1"));
     let needed = refusal.split("expected ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
     // Whole megabytes about what is needed.

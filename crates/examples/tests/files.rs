@@ -23,24 +23,25 @@ enum Known {
     One(Model),
     Several(SeveralModel),
     /// On its own mesh, and measured on another.
-    Meshes(SeveralModel, SeveralModel),
+    Meshes(Box<[SeveralModel; 2]>),
 }
 
 impl Known {
     fn rig(&self) -> Rig<'_> {
         match self {
             Self::One(model) => model.rig(),
-            Self::Several(model) | Self::Meshes(model, _) => model.rig(),
+            Self::Several(model) => model.rig(),
+            Self::Meshes(models) => models[0].rig(),
         }
     }
 
     /// What sensors measure, as far as noise leaves it, and what part of it noise is.
     fn measured(&self, frequency_hz: &[f64]) -> (Vec<Vec<c64>>, f64) {
+        let exact = |model: &SeveralModel| (model.exact(frequency_hz).unwrap(), model.noise);
         match self {
             Self::One(model) => (frequency_hz.iter().map(|&f| model.measured_at(f).unwrap()).collect(), 0.0),
-            Self::Several(model) | Self::Meshes(_, model) => {
-                (model.exact(frequency_hz).unwrap(), model.noise)
-            }
+            Self::Several(model) => exact(model),
+            Self::Meshes(models) => exact(&models[1]),
         }
     }
 }
@@ -60,7 +61,7 @@ fn model(name: &str) -> Known {
         "joint-stiffness" => several(joint_stiffness(20)),
         "added-mass" => several(added_mass(40)),
         "orthotropic-plate" => several(orthotropic_plate([8, 4])),
-        "two-meshes" => Known::Meshes(two_meshes(12).unwrap(), two_meshes(36).unwrap()),
+        "two-meshes" => Known::Meshes(Box::new([12, 36].map(|elements| two_meshes(elements).unwrap()))),
         other => panic!("a model for {other}"),
     }
 }

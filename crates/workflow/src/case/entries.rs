@@ -245,8 +245,8 @@ pub struct IdentifyEntry {
     pub reduction: Option<Reduction>,
     /// Where it says `start = "bounds"`.
     pub start: Option<Place>,
-    /// Where the first thing stands that only a single unknown that varies can have, and what is expected in its place otherwise.
-    pub of_single: Option<Located<&'static str>>,
+    /// Where the first thing stands that only a single unknown that varies can have.
+    pub of_single: Option<Place>,
 }
 
 /// One `[[identify]]`.

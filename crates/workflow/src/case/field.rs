@@ -33,6 +33,16 @@ const RENAMED: [(&str, &str); 5] = [
     ("truth", "reference"),
 ];
 
+/// Where a key belongs that only one table has: to the top of the file, or into that table.
+fn place_of(key: &str) -> Option<String> {
+    let has = |section: &&&Section| section.keys.iter().any(|known| known.name == key);
+    match SECTIONS.iter().filter(has).collect::<Vec<_>>()[..] {
+        [only] if only.path.is_empty() => Some("to the top of the file, before the first table".into()),
+        [only] if only.title.starts_with("`[") => Some(format!("into {}", only.title.trim_matches('`'))),
+        _ => None,
+    }
+}
+
 impl<'a> Table<'a> {
     /// A table at a place, with the keys of some sections.
     ///
@@ -63,7 +73,10 @@ impl<'a> Table<'a> {
             {
                 Some(name) if renamed.is_some() => format!("the key {name:?}, which was renamed"),
                 Some(name) => format!("a known key, of which {name:?} is nearest"),
-                None => format!("a known key ({listed})"),
+                None => match place_of(key.get_ref()) {
+                    Some(place) => format!("a known key ({listed}); {} belongs {place}", key.get_ref()),
+                    None => format!("a known key ({listed})"),
+                },
             };
             return Err(InputError::at(&here, expected, shown(key.get_ref())));
         }

@@ -47,10 +47,7 @@ pub(super) fn identify(field: &Field<'_>) -> Result<IdentifyEntry, InputError> {
         reduction: choice(first, "reduction")?.map(|reduction| reduction.value),
         start: first.find("start").map(|field| field.word(start)).transpose()?.map(|start| start.place),
         // Whether there is a single unknown that varies is known when the matrices are.
-        of_single: tables
-            .iter()
-            .find_map(|table| table.find_any(&keys::SINGLE))
-            .map(|key| Located { value: "no such key", place: key.place }),
+        of_single: tables.iter().find_map(|table| table.find_any(&keys::SINGLE)).map(|key| key.place),
     })
 }
 

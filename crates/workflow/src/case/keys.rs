@@ -8,7 +8,6 @@ use std::sync::LazyLock;
 #[derive(Debug)]
 pub(super) struct Section {
     /// Where it is: the keys that lead to it, `matrix.factor`; empty for the file itself.
-    #[cfg_attr(not(test), expect(dead_code, reason = "tests look there for its keys"))]
     pub(super) path: &'static str,
     /// How it is written, for a heading.
     pub(super) title: &'static str,

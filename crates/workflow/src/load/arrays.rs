@@ -442,7 +442,7 @@ fn entry_of(model: &DynamicStiffness, wanted: &Wanted) -> Result<IdentifyEntry, 
         selection: chosen(wanted.selection.as_deref(), argument("selection"))?,
         reduction: chosen(wanted.reduction.as_deref(), argument("reduction"))?.map(|word| word.value),
         start: wanted.start_at_bounds.then(|| argument("start")),
-        of_single: of_single.map(|(name, _)| Located { value: "None", place: argument(name) }),
+        of_single: of_single.map(|(name, _)| argument(name)),
     })
 }
 

@@ -99,6 +99,8 @@ pub(super) fn measurement(
     dofs: &Dofs,
     files: &mut Files,
 ) -> Result<Measurement, InputError> {
+    // First: a name that the model does not have is no FRF of the file either.
+    let named = entry.spot.as_ref().map(|spot| dofs.find(spot)).transpose()?;
     let curve = match &entry.file {
         Some(name) if values || entry.spot.is_none() || entry.quantity.is_none() => {
             Some(curve(entry, name, driven_at, files)?)
@@ -106,8 +108,8 @@ pub(super) fn measurement(
         None if values => return Err(InputError::at(&entry.place, "the key \"file\"", "none")),
         _ => None,
     };
-    let (sensor, label) = match (&entry.spot, &curve) {
-        (Some(spot), _) => dofs.find(spot)?,
+    let (sensor, label) = match (named, &curve) {
+        (Some(named), _) => named,
         (None, Some(Curve { frf: Frf { measured_at: Some(name), .. }, file, .. })) => {
             // The name is in the file; the key that leads there is the place to put it right.
             dofs.find(&Spot::Dof(Located { value: *name, place: file.named_by.clone() }))?

@@ -46,7 +46,7 @@ pub(super) fn overridden(entry: &IdentifyEntry, overrides: &Overrides) -> Result
 }
 
 fn only_of_single(entry: &mut IdentifyEntry, place: Place) {
-    entry.of_single.get_or_insert(Located { value: "no such option", place });
+    entry.of_single.get_or_insert(place);
 }
 
 /// What a word of an option or an argument says.

@@ -23,11 +23,9 @@ pub(super) fn unknowns(
     let each = entry.unknowns.iter().map(|one| unknown(one, model, of));
     let mut unknowns = each.collect::<Result<Vec<_>, _>>()?;
     let single = is_single(&unknowns);
-    if let (false, Some(Located { value: nothing, place })) = (single, &entry.of_single) {
-        let expected = format!(
-            "{nothing} with several unknowns, or with one that does not vary or has a negative power: there is one way to find them"
-        );
-        return Err(InputError::at(place, expected, "one"));
+    if let (false, Some(place)) = (single, &entry.of_single) {
+        let expected = "nothing here: several unknowns, constants and negative powers have one method only";
+        return Err(InputError::at(place, expected, "a choice"));
     }
     let has_smooth = unknowns.iter().any(|one| one.varies == Variation::Smooth);
     for (written, one) in entry.unknowns.iter().zip(&unknowns) {

@@ -53,10 +53,14 @@ pub(crate) fn read_reduced(
     experiment: &Experiment,
 ) -> Result<KeptSubspace, InputError> {
     let in_file = |error| InputError::in_file(file, error);
+    let refuse = |expected: String, found: String| InputError::at(&Place::file(file), expected, found);
+    // The beginning of an archive: whatever else it is, nobody took it for one.
+    if !bytes.starts_with(b"PK") {
+        return Err(refuse("a file of frfit train".into(), "a file of another kind".into()));
+    }
     let mut archive = ArchiveReader::open(bytes).map_err(in_file)?;
     let about = archive.text(ABOUT).map_err(in_file)?;
     let about: Value = serde_json::from_str(&about).unwrap_or_default();
-    let refuse = |expected: String, found: String| InputError::at(&Place::file(file), expected, found);
     if about["layout"] != VERSION {
         let expected = format!("a reduced model in layout {VERSION} (train it again)");
         return Err(refuse(expected, format!("layout {}", about["layout"])));

@@ -89,7 +89,7 @@ fn keys_that_are_unknown_or_missing() {
         (
             "[dofs]\nfile = \"dofs.csv\"\n",
             "dofs = \"dofs.csv\"\n",
-            "case.toml:16:1: matrix: expected a known key (name, role, file, at, factor, factor_is), found \"dofs\"",
+            "case.toml:16:1: matrix: expected a known key (name, role, file, at, factor, factor_is); dofs belongs to the top of the file, before the first table, found \"dofs\"",
         ),
         (
             "[[measurement]]\nfile = \"a.csv\"\ndof = \"2-Z\"\nquantity = \"accelerance\"\n[[measurement]]",
@@ -121,6 +121,11 @@ fn keys_that_are_unknown_or_missing() {
             "reference = {",
             "reference = { storage = 1, ",
             "case.toml:33:15: identify.reference: expected a known key (law, e0, e1, alpha), found \"storage\"",
+        ),
+        (
+            "[identify]\nmatrix",
+            "[identify]\nmodel_error = \"none\"\nmatrix",
+            "case.toml:29:1: identify: expected a known key (name, matrix, powers, varies, law, branches, nominal, bounds, real, reference, band_hz, exclude_hz, max_lines, reject_outliers, check, method, order, selection, reduction, start); model_error belongs to the top of the file, before the first table, found \"model_error\"",
         ),
         ("e1 = 2.0e4, ", "", "case.toml:33:13: identify.reference: expected the key \"e1\", found none"),
         (
@@ -497,7 +502,7 @@ fn options_and_bands() {
         (
             "order = 20",
             "order = 20\nvaries = \"constant\"",
-            "case.toml:31:1: identify.order: expected no such key with several unknowns, or with one that does not vary or has a negative power: there is one way to find them, found one",
+            "case.toml:31:1: identify.order: expected nothing here: several unknowns, constants and negative powers have one method only, found a choice",
         ),
         (
             "e1 = 2.0e4",
