@@ -7,7 +7,7 @@ use frfit::identify::{
 use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
-use frfit_workflow::load::IdentifyCase;
+use frfit_workflow::load::{IdentifyCase, MeasuredNoise};
 use frfit_workflow::output::{Words, contradicted, laws_text, not_identifiable};
 use frfit_workflow::terminal::{listed, short};
 use serde_json::Value;
@@ -229,16 +229,23 @@ fn noise(text: &mut Text, job: &IdentifyJob) {
     let bar = relative.get(relative.len() / 2).map_or(String::new(), |median| {
         format!("; standard deviation of the factor {} (median where ok)", percent_of(*median))
     });
+    let of = match job.identify().map(|identify| &identify.noise) {
+        Some(MeasuredNoise::Unknown) if found.noise.floor.is_some() => {
+            "of a response of median size (with a floor that does not grow with the response)"
+        }
+        Some(MeasuredNoise::Unknown) => "of the response",
+        _ => "times the assumed noise",
+    };
     let source = match found.noise.source {
         NoiseSource::Given => "as given".to_owned(),
         NoiseSource::Sensors => {
-            format!("{level:.1e} times the assumed noise, from the misfit of the sensors")
+            format!("{level:.1e} {of}, from the misfit of the sensors")
         }
         NoiseSource::Scatter => {
-            format!("{level:.1e} times the assumed noise, from the scatter of the answers")
+            format!("{level:.1e} {of}, from the scatter of the answers")
         }
         NoiseSource::Curve => {
-            format!("{level:.1e} times the assumed noise, from the residual of the smooth curve")
+            format!("{level:.1e} {of}, from the residual of the smooth curve")
         }
         _ => "unknown".to_owned(),
     };

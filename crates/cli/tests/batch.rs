@@ -181,7 +181,7 @@ fn a_reduced_model_belongs_to_its_matrices_load_and_sensors() {
     let said = with("file = \"M_core.mtx\"", "file = \"M_skins.mtx\"");
     assert!(said.contains("another matrix in place of \"core-mass\""), "{said}");
     let wrong = refused(at, &["identify", "s/case.toml", "--out", "out", "--reduced", "s/K_core.mtx"]);
-    assert!(wrong.contains("K_core.mtx") && wrong.contains("archive"), "{wrong}");
+    assert!(wrong.contains("K_core.mtx") && wrong.contains("expected a file of frfit train"), "{wrong}");
     let mut bytes = fs::read(at.join("m.frfit")).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;

@@ -24,16 +24,47 @@ pub struct Frfs<'a> {
 /// Standard deviations √E|δx|² of measured receptances, `[frequency][sensor]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Noise<'a> {
-    /// Not known: in proportion to the responses, by a factor that is estimated from several sensors.
+    /// Not known: in proportion to the responses, by a factor that is estimated from several sensors. Where the responses show a floor, that is part of it
+    /// ([`Noise::Floor`]).
     Unknown,
+    /// Not known: in proportion to √(|x|² + floor²), by a factor that is estimated from several sensors.
+    Floor(NoiseFloor),
     /// Known up to a common factor, as from a coherence without the number of averages.
     Relative(&'a [Vec<f64>]),
     /// Known.
     Known(&'a [Vec<f64>]),
 }
 
+impl Noise<'_> {
+    /// Whether nothing is known of its size: it is found as a part of the response.
+    pub(crate) fn is_part_of_response(&self) -> bool {
+        matches!(self, Self::Unknown | Self::Floor(_))
+    }
+}
+
+/// A part of the noise that does not grow with the response: that of an amplifier or a converter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseFloor {
+    /// At the middle of the band, over the median of the sensor's response, as large as the noise of a response of that size.
+    pub over_median: f64,
+    /// The floor of a receptance falls as ω^−power: 2 of a white floor of the acceleration, 1 of the velocity, 0 of the displacement.
+    pub power: i32,
+}
+
+impl NoiseFloor {
+    /// √(|x|² + floor²) over what that is for a floor and a response of median size: a part of the response again.
+    fn std(&self, size: f64, median: f64, frequency_over_middle: f64) -> f64 {
+        let floor = self.over_median * median * frequency_over_middle.powi(-self.power);
+        size.hypot(floor) / self.over_median.hypot(1.0)
+    }
+}
+
 /// σ of real and imaginary part each, `[frequency][sensor]`: as given, or in proportion to the response.
-pub(crate) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Vec<Vec<f64>> {
+pub(crate) fn standard_deviations(
+    frequency_hz: &[f64],
+    measured: &[Vec<c64>],
+    noise: Noise<'_>,
+) -> Vec<Vec<f64>> {
     let sensors = 0..measured.first().map_or(0, Vec::len);
     let sorted = |m: usize| {
         let mut sizes: Vec<f64> = measured.iter().map(|u| u[m].norm()).collect();
@@ -47,8 +78,17 @@ pub(crate) fn standard_deviations(measured: &[Vec<c64>], noise: Noise<'_>) -> Ve
                 (std[i][m] / 2f64.sqrt()).max(MIN_STD_OVER_LARGEST * sizes[m][sizes[m].len() - 1])
             }
             Noise::Unknown => u.norm().max(MIN_SIZE_OVER_MEDIAN * sizes[m][sizes[m].len() / 2]),
+            Noise::Floor(floor) => {
+                floor.std(u.norm(), sizes[m][sizes[m].len() / 2], frequency_hz[i] / middle_hz(frequency_hz))
+            }
         };
         u.iter().enumerate().map(of).collect()
     };
     measured.iter().enumerate().map(row).collect()
+}
+
+/// The geometric mean of the ends of a band; without its first line where that is at 0 Hz.
+fn middle_hz(frequency_hz: &[f64]) -> f64 {
+    let first = frequency_hz.iter().copied().find(|&f| f > 0.0).unwrap_or(1.0);
+    (first * frequency_hz.last().copied().unwrap_or(1.0)).sqrt()
 }

@@ -73,7 +73,7 @@ impl Partners {
     ) -> Option<Self> {
         let omegas: Vec<f64> = problem.frfs().frequency_hz.iter().map(|&f| omega_rad_s(f)).collect();
         let noise = measured.std.map_or(Noise::Unknown, Noise::Known);
-        let std = standard_deviations(measured.receptance, noise);
+        let std = standard_deviations(problem.frfs().frequency_hz, measured.receptance, noise);
         let decay_per_s = problem.model().decay_per_s();
         let shown = ShownModes::new(&omegas, (measured.receptance, &std), decay_per_s, for_each)?;
         Some(Self {

@@ -114,7 +114,7 @@ fn diagnose_by(
     let live: Vec<usize> = (0..sensors).filter(|m| !dead.contains(m)).collect();
     let std = match problem.frfs().noise {
         Noise::Known(std) => Some(std),
-        Noise::Relative(_) | Noise::Unknown => None,
+        Noise::Relative(_) | Noise::Floor(_) | Noise::Unknown => None,
     };
     let all = Measured { experiment: problem.experiment(), receptance, quantities, std };
     let part = Part::of(all, &live);

@@ -107,7 +107,7 @@ pub(super) fn judge(
         NoiseSource::Given if deviate <= CHANCE_DEVIATE => Explained::Yes,
         NoiseSource::Given if chi_squared <= MAX_NEARLY_REDUCED_CHI_SQUARED * n => Explained::Nearly,
         NoiseSource::Given => Explained::No,
-        _ if given == Noise::Unknown && found > MAX_NOISE_OVER_RESPONSE => Explained::No,
+        _ if given.is_part_of_response() && found > MAX_NOISE_OVER_RESPONSE => Explained::No,
         // Below what a test can show there is nothing to contradict.
         _ if found <= MIN_DOUBTFUL_MISFIT => Explained::Yes,
         _ => match noise.of_scatter {

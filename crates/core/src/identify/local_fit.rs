@@ -13,11 +13,14 @@ use crate::c64;
 use frfit_linalg::dense::{Matrix, least_squares};
 
 /// Lines of a neighbourhood: twice as many numbers as are fitted, and a few more.
-const LINES: usize = 11;
+pub(super) const LINES: usize = 11;
 
 /// Numbers of numerator and denominator.
 const NUMERATOR: usize = 3;
 const DENOMINATOR: usize = 2;
+
+/// Degrees of freedom of what is left of a neighbourhood.
+pub(super) const FREEDOM: usize = 2 * (LINES - NUMERATOR - DENOMINATOR);
 
 /// The equation is linear once the denominator is on the other side; its weights then are those of the last one.
 const ROUNDS: usize = 3;
@@ -45,11 +48,11 @@ pub(super) fn of_responses((omegas, measured): (&[f64], &[Vec<c64>]), sigma: &[V
     if squares.len() < MIN_NEIGHBOURHOODS {
         return None;
     }
-    level_of(squares, 2 * (LINES - NUMERATOR - DENOMINATOR))
+    level_of(squares, FREEDOM)
 }
 
 /// χ² of the lines (frequency, response, σ) of a neighbourhood; `None` where they do not determine the function.
-fn what_is_left(lines: &[(f64, c64, f64)]) -> Option<f64> {
+pub(super) fn what_is_left(lines: &[(f64, c64, f64)]) -> Option<f64> {
     let [first, last] = [lines[0].0, lines[lines.len() - 1].0];
     let t = |k: usize| (2.0 * lines[k].0 - first - last) / (last - first);
     let mut denominator = vec![1.0; lines.len()];

@@ -28,6 +28,7 @@ mod local_fit;
 mod measured;
 mod model_errors;
 mod noise;
+mod noise_floor;
 mod one;
 mod options;
 mod outcome;

@@ -3,7 +3,7 @@
 use super::thinned::thinned;
 use crate::c64;
 use crate::frequency::omega_rad_s;
-use crate::frfs::Noise;
+use crate::frfs::{Noise, NoiseFloor};
 use crate::median::median;
 use crate::select::{Choice, Node};
 
@@ -43,7 +43,7 @@ impl NoiseSource {
 }
 
 /// The noise over the assumed standard deviations: those that were given, or where none were, the responses themselves (a tenth of their median at
-/// least), for real and imaginary part each.
+/// least, or with the floor that they show), for real and imaginary part each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoiseLevel {
     /// What the error bars are made with; `None` where it is not known.
@@ -54,6 +54,8 @@ pub struct NoiseLevel {
     pub of_sensors: Option<f64>,
     /// What the scatter of the answers over frequency says, or of several unknowns that of the responses about local rational functions.
     pub of_scatter: Option<f64>,
+    /// The floor that the assumed standard deviations have, where the responses show one.
+    pub floor: Option<NoiseFloor>,
 }
 
 impl NoiseLevel {
@@ -64,12 +66,16 @@ impl NoiseLevel {
             (_, None, Some(level)) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Scatter),
             (_, None, None) => (None, NoiseSource::Nothing),
         };
-        Self { level, source, of_sensors, of_scatter }
+        let floor = match noise {
+            Noise::Floor(floor) => Some(floor),
+            _ => None,
+        };
+        Self { level, source, of_sensors, of_scatter, floor }
     }
 
     /// Nothing known, as where each frequency is answered alone.
     pub(super) const UNKNOWN: Self =
-        Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None };
+        Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None, floor: None };
 }
 
 /// Half the width of the neighbourhood that has the level of a response, in ln ω: a third of an octave in all.

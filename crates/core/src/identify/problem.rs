@@ -4,6 +4,7 @@ use super::channel::ChannelUnknowns;
 use super::choice::{Method, Reduction, Selection};
 use super::coarser_mesh::CoarserMesh;
 use super::measured::Band;
+use super::noise_floor::with_floor;
 use super::options::{ModelErrors, Options};
 use super::problem_error::{ProblemError, value};
 use super::unknown::{Composite, Dependence, Unknown, Variation};
@@ -63,12 +64,13 @@ impl<'a> Problem<'a> {
             channels.len() == experiment.sensors.len() && !channels.iter().any(|channel| channel.any());
         let channels = if known { &[] } else { channels };
         let parameter = if let [only] = unknowns { only.parameter() } else { None };
-        let problem = Self { model, experiment, unknowns, channels, frfs, coarser: None, parameter };
+        let mut problem = Self { model, experiment, unknowns, channels, frfs, coarser: None, parameter };
         check_experiment("", model, experiment)?;
         problem.check_frfs()?;
         problem.check_noise()?;
         problem.check_unknowns()?;
         problem.check_channels()?;
+        problem.frfs.noise = with_floor(frfs);
         Ok(problem)
     }
 

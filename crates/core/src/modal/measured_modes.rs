@@ -107,7 +107,7 @@ pub fn measured_modes(
     options: &PoleOptions,
     for_each: ForEach<'_>,
 ) -> Result<MeasuredModes, NoConvergence> {
-    let mut weights = standard_deviations(frfs.receptance, frfs.noise);
+    let mut weights = standard_deviations(frfs.frequency_hz, frfs.receptance, frfs.noise);
     weights.iter_mut().flatten().for_each(|std| *std = std.recip());
     let count = frfs.frequency_hz.len();
     let used: Vec<usize> = (0..count).step_by(count.div_ceil(MAX_LINES).max(1)).collect();

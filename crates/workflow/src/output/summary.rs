@@ -243,15 +243,19 @@ fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
 
 /// How large the noise is, and where that is known from: `level` is in units of what `deviation` names.
 fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
-    let NoiseLevel { level, source, of_sensors, of_scatter } = run.found.noise;
+    let NoiseLevel { level, source, of_sensors, of_scatter, floor } = run.found.noise;
     let deviation = match &identify.noise {
         MeasuredNoise::Known(_) => "std, or coherence and averages, of the measurements",
         MeasuredNoise::Relative(_) => "coherence of the measurements, as of one average",
+        MeasuredNoise::Unknown if floor.is_some() => {
+            "size of the response with a floor, over that of a response of median size"
+        }
         MeasuredNoise::Unknown => "size of the response, a tenth of its median at least",
     };
     json!({
         "level": level, "source": source.name(), "deviation": deviation,
         "level_of_sensors": of_sensors, "level_of_scatter": of_scatter,
+        "floor": floor.map(|floor| json!({"over_median": floor.over_median, "power": floor.power})),
     })
 }
 

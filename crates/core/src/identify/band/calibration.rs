@@ -167,7 +167,8 @@ fn settle(
     unknown: &[ChannelUnknowns],
     context: Context<'_>,
 ) -> Option<CalibrationEstimate> {
-    let sigma = without(&standard_deviations(band.measured, band.noise), &outcome.left_out());
+    let sigma =
+        without(&standard_deviations(band.frequency_hz, band.measured, band.noise), &outcome.left_out());
     let free = numbers_of(unknown);
     let n = free.len();
     let top = top(band);

@@ -110,7 +110,7 @@ pub(super) fn on_corrected<'a>(
     if fitted > 0 {
         outcome = outcome.with_fitted(fitted, band);
     }
-    let sigma = without(&standard_deviations(band.measured, band.noise), &left_out);
+    let sigma = without(&standard_deviations(band.frequency_hz, band.measured, band.noise), &left_out);
     let corrected = reduced.corrected().map(|corrected| (reduced.whole(), corrected));
     errors.bars_over_noise =
         corrected.and_then(|corrected| widen(&mut outcome, &errors, at, corrected, &sigma, context));
@@ -156,7 +156,9 @@ impl Weights {
         at: &[ModelAt<'_>],
         left_out: &[usize],
     ) -> Self {
-        let of = |noise: Noise<'_>| without(&standard_deviations(band.measured, noise), left_out);
+        let of = |noise: Noise<'_>| {
+            without(&standard_deviations(band.frequency_hz, band.measured, noise), left_out)
+        };
         Self {
             sigma: of(band.noise),
             size: of(Noise::Unknown),

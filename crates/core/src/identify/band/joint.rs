@@ -32,7 +32,7 @@ pub(super) fn identify<'a>(
     options: &Options,
     context: Context<'_>,
 ) -> BandOutcome {
-    let assumed = standard_deviations(band.measured, band.noise);
+    let assumed = standard_deviations(band.frequency_hz, band.measured, band.noise);
     let sensors = band.experiment.sensors.len();
     let dead = dead_channels(band.measured);
     let more: Vec<usize> = dead.iter().copied().filter(|m| !hidden.contains(m)).collect();
@@ -118,7 +118,7 @@ pub(super) fn answered_pilots(
     context: Context<'_>,
 ) -> usize {
     let dead = dead_channels(band.measured);
-    let sigma = without(&standard_deviations(band.measured, band.noise), &dead);
+    let sigma = without(&standard_deviations(band.frequency_hz, band.measured, band.noise), &dead);
     let sensors = band.experiment.sensors.len() - dead.len();
     let task = Task { band, at, sigma: &sigma, sensors, options, context };
     let pilots = reduced.pilots();

@@ -122,7 +122,7 @@ pub(in crate::identify) fn identify_laws<'a>(
     let scaled = Scaled::new(band, &channels).with_rest(free.rest(), band.frequency_hz);
     let view = scaled.band(band);
     let out = free.left_out();
-    let sigma = without(&standard_deviations(view.measured, view.noise), &out);
+    let sigma = without(&standard_deviations(view.frequency_hz, view.measured, view.noise), &out);
     let fitting = Fitting { band: &view, at: &at, sigma: &sigma, unknown, ratio, options, context };
     let Some(mut reduced) = reduced else {
         let lines = free.lines.iter().map(|own| own.unanswered()).collect();
@@ -174,7 +174,7 @@ pub(in crate::identify) fn identify_laws<'a>(
     let calibrations = (0..unknown.len()).map(calibration).collect();
     let scaled = Scaled::new(band, &better).with_rest(free.rest(), band.frequency_hz);
     let view = scaled.band(band);
-    let sigma = without(&standard_deviations(view.measured, view.noise), &out);
+    let sigma = without(&standard_deviations(view.frequency_hz, view.measured, view.noise), &out);
     let judging = Fitting { band: &view, sigma: &sigma, ..fitting };
     if better != channels || free.model_errors.is_some() != had_errors {
         // The value of each frequency alone, at the calibrations and the errors that came out.
@@ -286,7 +286,8 @@ impl Fitting<'_, '_> {
         let calibrated = vec![Channel::CALIBRATED; self.unknown.len()];
         let scaled = Scaled::new(self.band, &calibrated).with_rest(errors.rest, self.band.frequency_hz);
         let view = scaled.band(self.band);
-        let sigma = without(&standard_deviations(view.measured, view.noise), &free.left_out());
+        let sigma =
+            without(&standard_deviations(view.frequency_hz, view.measured, view.noise), &free.left_out());
         let beside = Fitting { band: &view, sigma: &sigma, ..*self };
         beside.fit(before.kind, reduced, free, Some(before))
     }

@@ -34,7 +34,9 @@ pub(super) fn contradicting(
         let with_all = trial.misfit(&out);
         let floor = match task.band.noise {
             Noise::Known(_) => 1.0,
-            Noise::Unknown | Noise::Relative(_) => MIN_DOUBTFUL_MISFIT * MIN_DOUBTFUL_MISFIT,
+            Noise::Unknown | Noise::Floor(_) | Noise::Relative(_) => {
+                MIN_DOUBTFUL_MISFIT * MIN_DOUBTFUL_MISFIT
+            }
         };
         if with_all <= OUTLIER_RATIO * floor {
             break;

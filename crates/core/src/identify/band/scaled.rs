@@ -27,7 +27,7 @@ impl Scaled {
             rows.iter().map(row).collect()
         };
         let std = match band.noise {
-            Noise::Unknown => Vec::new(),
+            Noise::Unknown | Noise::Floor(_) => Vec::new(),
             Noise::Relative(std) | Noise::Known(std) => scaled(std),
         };
         Self { measured: measured.collect(), std }
@@ -44,7 +44,7 @@ impl Scaled {
 
     pub(super) fn band<'s>(&'s self, band: &Band<'s>) -> Band<'s> {
         let noise = match band.noise {
-            Noise::Unknown => Noise::Unknown,
+            unknown @ (Noise::Unknown | Noise::Floor(_)) => unknown,
             Noise::Relative(_) => Noise::Relative(&self.std),
             Noise::Known(_) => Noise::Known(&self.std),
         };

@@ -109,7 +109,10 @@ fn far_factor<'a, 'o>(
         }
     };
     let omegas: Vec<f64> = band.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect();
-    let std = without(&standard_deviations(band.measured, band.noise), &dead_channels(band.measured));
+    let std = without(
+        &standard_deviations(band.frequency_hz, band.measured, band.noise),
+        &dead_channels(band.measured),
+    );
     let measured = (band.measured, std.as_slice());
     let shapes = MeasuredShapes::new(&omegas, measured, band.model.decay_per_s(), context.for_each)?;
     let nominal: Vec<(f64, c64)> = at.iter().map(|at| (at.frequency_hz, at.parameters[0].nominal)).collect();

@@ -105,7 +105,7 @@ pub(in crate::identify) fn identify_smooth<'a>(
     }
     let wider = Scaled::new(band, &[]).with_rest(free.rest(), band.frequency_hz);
     let band = &wider.band(band);
-    let assumed = standard_deviations(band.measured, band.noise);
+    let assumed = standard_deviations(band.frequency_hz, band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
     let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, context };

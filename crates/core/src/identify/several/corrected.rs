@@ -160,7 +160,11 @@ impl Task<'_, '_> {
             measured: self.problem.frfs.receptance,
             sigma: &self.sigma,
             size: &without(
-                &standard_deviations(self.problem.frfs.receptance, Noise::Unknown),
+                &standard_deviations(
+                    self.problem.frfs.frequency_hz,
+                    self.problem.frfs.receptance,
+                    Noise::Unknown,
+                ),
                 &self.left_out,
             ),
             levels: &levels(self.problem.frfs.receptance, self.problem.frfs.frequency_hz),

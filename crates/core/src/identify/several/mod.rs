@@ -99,7 +99,7 @@ pub(super) fn identify_several<'a>(
         nominal: &nominal,
         given: &nominal,
         omegas: frfs.frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: without(&standard_deviations(frfs.receptance, frfs.noise), &dead),
+        sigma: without(&standard_deviations(frfs.frequency_hz, frfs.receptance, frfs.noise), &dead),
         left_out: dead,
         options,
         context,

@@ -78,7 +78,9 @@ impl Task<'_, '_> {
     fn usual_chi_squared(&self) -> f64 {
         match self.problem.frfs.noise {
             Noise::Known(_) => 1.0,
-            Noise::Unknown | Noise::Relative(_) => USUAL_NOISE_OVER_RESPONSE * USUAL_NOISE_OVER_RESPONSE,
+            Noise::Unknown | Noise::Floor(_) | Noise::Relative(_) => {
+                USUAL_NOISE_OVER_RESPONSE * USUAL_NOISE_OVER_RESPONSE
+            }
         }
     }
 

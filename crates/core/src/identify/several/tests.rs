@@ -84,7 +84,7 @@ fn all_solutions_of_two_unknowns_are_found() {
         nominal: &nominal,
         given: &nominal,
         omegas: frequency_hz.iter().map(|&f| omega_rad_s(f)).collect(),
-        sigma: standard_deviations(&measured, Noise::Unknown),
+        sigma: standard_deviations(&frequency_hz, &measured, Noise::Unknown),
         left_out: Vec::new(),
         options: &options,
         context,
