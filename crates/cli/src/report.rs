@@ -493,7 +493,6 @@ fn unknown_name(job: &IdentifyJob, unknown: usize) -> Option<&str> {
 
 /// The known factors of which an error moves an unknown by more than itself, the worst first, and the mesh where it moves one by more than it does a modulus alone.
 fn leverage(job: &IdentifyJob) -> Option<String> {
-    const SHOWN: usize = 2;
     let is_large = |one: &&Leverage| one.change > one.of.large();
     let mut large: Vec<&Leverage> = job.run.found.leverage.iter().filter(is_large).collect();
     large.sort_by(|a, b| (b.change / b.of.large()).total_cmp(&(a.change / a.of.large())));
@@ -509,7 +508,13 @@ fn leverage(job: &IdentifyJob) -> Option<String> {
             ),
         }
     };
-    let said: Vec<String> = large.iter().take(SHOWN).map(one).collect();
+    // The largest two, of which the mesh is one where it is large: its error is the one that no FRF shows.
+    let mesh = large.iter().position(|one| one.of == LeverageOf::Mesh);
+    if let Some(mesh) = mesh.filter(|at| *at > 1) {
+        large.swap(1, mesh);
+    }
+    large.truncate(2);
+    let said: Vec<String> = large.iter().map(one).collect();
     (!said.is_empty()).then(|| said.join("; "))
 }
 
