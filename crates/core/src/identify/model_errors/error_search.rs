@@ -57,6 +57,27 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// The errors of stiffness that explain the band best, or of stiffness and masses. `None` where nothing can be compared.
     pub(super) fn of_stiffness(&self) -> Option<Explained> {
+        self.of_all_starts().map(|wrong| self.without_common_error(wrong))
+    }
+
+    /// From where the unknowns have taken what all natural frequencies have in common, as long as that is improbable and leads to larger evidence.
+    ///
+    /// Of the two hardly more than the sum is seen. So they lie in a long valley, in which a search may stop.
+    fn without_common_error(&self, mut wrong: Explained) -> Explained {
+        let data = self.search.data;
+        let settled: Fit<'_> = &|fitting, place| data.settled_near(fitting, place);
+        while let Some(place) = self.whole.without_common_error(&wrong.found.place) {
+            let nearer = self.search.near(place, wrong.kinds, settled);
+            match nearer.filter(|nearer| nearer.evidence < wrong.evidence) {
+                Some(nearer) => wrong = nearer,
+                None => break,
+            }
+        }
+        wrong
+    }
+
+    /// From the starts, from pairs of modes, and from elsewhere where neither explains the band.
+    fn of_all_starts(&self) -> Option<Explained> {
         let is_found = |wrong: &Option<Explained>| wrong.as_ref().is_some_and(|wrong| self.is_found(wrong));
         let by_starts = self.of_starts();
         let by_modes = if is_found(&by_starts) { None } else { self.paired() };

@@ -6,6 +6,7 @@ use super::kinds::Kinds;
 use super::measured::PointAt;
 use super::mesh::BetweenMeshes;
 use super::sizes::KnownSizes;
+use super::sizes::MAX_COMMON_STD;
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::subspace::{FactorError, ModalErrors, Modes, Projection, UnknownLoss};
@@ -58,6 +59,9 @@ const LOSS_OF_MESH: usize = 6;
 pub(super) fn is_frequency_part(part: usize) -> bool {
     part % COMMON_PARTS < COMMON_FREQUENCY_PARTS
 }
+
+/// What modes have in common is improbable beyond so many standard deviations.
+const IMPROBABLE: f64 = 2.0;
 
 /// Where a search is: θ, the common parts of δ and ε, the amplitude of the mesh's error where there are two meshes, own parts of δ and ε, ν and Δη, κ. Then g of
 /// the force and of each sensor, and a of the load and of each sensor.
@@ -292,6 +296,23 @@ impl Fitting<'_, '_> {
             place[of_mesh] = mesh.remainder;
         }
         place
+    }
+
+    /// Where smooth unknowns have what is the scale of all stiffness at a place, if that is an improbable one.
+    pub(super) fn without_common_error(&self, place: &[f64]) -> Option<Place> {
+        let scale = self.of_scale()?;
+        let error = place[scale];
+        if error.abs() <= IMPROBABLE * MAX_COMMON_STD {
+            return None;
+        }
+        let mut there = place.to_vec();
+        let unknowns = self.curves.smooth();
+        for &unknown in &unknowns {
+            // Natural frequencies go with the root of the stiffness.
+            self.curves.scale(&mut there, unknown, 2.0 * error.ln_1p());
+        }
+        there[scale] = 0.0;
+        (!unknowns.is_empty()).then_some(there)
     }
 
     /// The coordinates of the curves and of some of the factors: those of a fitting without modes.
