@@ -323,7 +323,7 @@ fn fit(text: &mut Text, job: &IdentifyJob) {
             };
             let by = match found.noise.source {
                 NoiseSource::Given => format!("χ² is {per_freedom:.1} times that of noise"),
-                _ => "the misfit is larger than the noise".to_owned(),
+                _ => "the misfit is larger than the noise seems to be; a column std in the files would say how large that is".to_owned(),
             };
             let errors = found.model_errors.iter();
             let assumptions: Vec<_> = errors.flat_map(|errors| &errors.contradicted_assumptions).collect();
