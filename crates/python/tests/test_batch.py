@@ -83,7 +83,7 @@ def test_a_kept_model_saves_the_training(folder: Path) -> None:
 
 
 def test_what_cannot_be_is_refused(folder: Path) -> None:
-    with pytest.raises(frfit.InputError, match="another load|another matrix|sensors|archive"):
+    with pytest.raises(frfit.InputError, match="another load|another matrix|sensors|another kind"):
         frfit.run_case(folder / "case.toml", reduced=folder / "frf.uff")
     with pytest.raises(frfit.OptionsError, match="shard"):
         frfit.batch(folder / "plan.csv", folder / "none", shard=(3, 2))

@@ -191,7 +191,7 @@ def test_what_is_wrong_with_an_unknown_is_said(measured):
 
     springs = frfit.Unknown("modulus", matrix="springs")
     constant = frfit.Unknown("density", matrix="mass", varies="constant", real=True)
-    with pytest.raises(frfit.InputError, match="method: expected None"):
+    with pytest.raises(frfit.InputError, match="method: expected nothing here"):
         identify(springs, constant, method="series")
     with pytest.raises(frfit.InputError, match="matrix: expected None beside unknowns"):
         identify(springs, matrix="mass")
