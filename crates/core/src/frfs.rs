@@ -45,7 +45,7 @@ impl Noise<'_> {
 /// A part of the noise that does not grow with the response: that of an amplifier or a converter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoiseFloor {
-    /// At the middle of the band, over the median of the sensor's response, as large as the noise of a response of that size.
+    /// The floor in the middle of the band, over the median of the sensor's response.
     pub over_median: f64,
     /// The floor of a receptance falls as ω^−power: 2 of a white floor of the acceleration, 1 of the velocity, 0 of the displacement.
     pub power: i32,

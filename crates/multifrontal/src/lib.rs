@@ -68,7 +68,7 @@ fn arch() -> pulp::Arch {
     *ARCH.get_or_init(pulp::Arch::new)
 }
 
-/// The largest |x|, which is no number where one of them is none.
+/// max |x|; NaN if one of the numbers is NaN.
 fn size<T: Scalar>(x: &[T]) -> f64 {
     let larger = |largest: f64, size: f64| if size > largest || size.is_nan() { size } else { largest };
     x.iter().map(|x| x.modulus()).fold(0.0, larger)

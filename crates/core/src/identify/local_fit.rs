@@ -80,17 +80,13 @@ pub(super) fn what_is_left(lines: &[(f64, c64, f64)]) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::frequency::linear_hz;
+    use crate::identify::random::normal_numbers;
 
     /// Noise of a known size on a structure with narrow and wide modes, and a response that has no noise.
     #[test]
     fn noise_is_what_a_local_rational_function_leaves() {
         let frequency_hz = linear_hz(20.0, 500.0, 240);
-        let mut state = 7u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+        let mut normal = normal_numbers(7);
         let modes = [
             (47.0, 2e-3, 1.0),
             (130.0, 0.05, -0.7),
@@ -107,7 +103,7 @@ mod tests {
         let exact: Vec<Vec<c64>> = frequency_hz.iter().map(|&f| vec![exact(f, 0.0), exact(f, 1.0)]).collect();
         for noise in [0.0, 1e-3, 0.02] {
             let mut measured = exact.clone();
-            measured.iter_mut().flatten().for_each(|x| *x *= 1.0 + noise * c64::new(normal(), normal()));
+            measured.iter_mut().flatten().for_each(|x| *x *= 1.0 + noise * normal());
             let sigma: Vec<Vec<f64>> =
                 measured.iter().map(|u| u.iter().map(|u| u.norm()).collect()).collect();
             let found = of_responses((&frequency_hz, &measured), &sigma).unwrap();

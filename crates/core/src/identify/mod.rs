@@ -34,6 +34,8 @@ mod options;
 mod outcome;
 mod problem;
 mod problem_error;
+#[cfg(test)]
+mod random;
 mod rational;
 mod reduced_band;
 mod several;
@@ -42,7 +44,7 @@ mod thinned;
 mod uncertainty;
 mod unknown;
 
-pub use crate::frfs::{Frfs, Noise};
+pub use crate::frfs::{Frfs, Noise, NoiseFloor};
 pub use crate::response::relative_error;
 pub use band::SmoothCurve;
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};

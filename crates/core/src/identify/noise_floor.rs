@@ -25,10 +25,10 @@ const POWERS: [i32; 3] = [0, 1, 2];
 const MAX_NEIGHBOURHOODS: usize = 150;
 const MIN_NEIGHBOURHOODS: usize = 12;
 
-/// A floor over the median of the response that is none.
+/// So small a floor, over the median of the response, stands for noise without one.
 const NO_FLOOR: f64 = 0.02;
 
-/// The share of neighbourhoods that something else than noise is left of, beforehand; and the share that noise has to explain.
+/// Prior probability that a neighbourhood has a residual other than noise, and the share of neighbourhoods that noise has to explain.
 const UNEXPLAINED: f64 = 0.1;
 const MIN_SHARE: f64 = 0.8;
 
@@ -44,7 +44,7 @@ const MIN_NATS: f64 = 15.0;
 /// The share of neighbourhoods that is left out of that ratio: those that say most for a floor.
 const TRIMMED: f64 = 0.15;
 
-/// Below this part of the response there is no noise, but roundoff and what a rational function leaves.
+/// A residual below this part of the response is roundoff and the error of the rational function, and not noise.
 const MIN_LEVEL: f64 = 1e-4;
 
 /// Steps to the scale s of largest likelihood.
@@ -52,9 +52,14 @@ const SCALE_STEPS: usize = 12;
 
 /// The same noise with the floor that the responses show, where it is not known at all.
 pub(super) fn with_floor<'a>(frfs: Frfs<'a>) -> Noise<'a> {
-    if frfs.noise != Noise::Unknown {
-        return frfs.noise;
+    match frfs.noise {
+        Noise::Unknown => shown_floor(frfs).map_or(Noise::Unknown, Noise::Floor),
+        known => known,
     }
+}
+
+/// The likeliest floor, if noise with it is far likelier than without.
+fn shown_floor(frfs: Frfs<'_>) -> Option<NoiseFloor> {
     let dead = dead_channels(frfs.receptance);
     let sensors = frfs.receptance.first().map_or(0, Vec::len);
     let places: Vec<(usize, usize)> = (0..sensors)
@@ -62,25 +67,22 @@ pub(super) fn with_floor<'a>(frfs: Frfs<'a>) -> Noise<'a> {
         .flat_map(|m| (0..frfs.frequency_hz.len() / LINES).map(move |k| (m, k * LINES)))
         .collect();
     let places: Vec<(usize, usize)> = thinned(&places, MAX_NEIGHBOURHOODS).copied().collect();
+    if places.len() < MIN_NEIGHBOURHOODS {
+        return None;
+    }
     let left = |noise: Noise<'_>| what_noise_leaves(frfs, noise, &places);
-    let Some(assumed) = left(frfs.noise).filter(|left| left.len() >= MIN_NEIGHBOURHOODS) else {
-        return frfs.noise;
-    };
-    let of = |noise: Noise<'_>| Likelihood::new(&left(noise)?, &assumed);
-    let floor = |over_median, power| Noise::Floor(NoiseFloor { over_median, power });
-    let Some(as_assumed) = Likelihood::new(&assumed, &assumed).filter(|one| one.level >= MIN_LEVEL) else {
-        return frfs.noise;
-    };
-    let base = match of(floor(NO_FLOOR, 0)) {
+    let assumed = left(Noise::Unknown)?;
+    let as_assumed = Likelihood::new(&assumed, &assumed).filter(|one| one.level >= MIN_LEVEL)?;
+    let of = |floor: NoiseFloor| Likelihood::new(&left(Noise::Floor(floor))?, &assumed);
+    let base = match of(NoiseFloor { over_median: NO_FLOOR, power: 0 }) {
         Some(proportional) if proportional.nats() > as_assumed.nats() => proportional,
         _ => as_assumed,
     };
-    let floors = POWERS.into_iter().flat_map(|power| FLOORS.map(|over_median| floor(over_median, power)));
+    let floors =
+        POWERS.into_iter().flat_map(|power| FLOORS.map(|over_median| NoiseFloor { over_median, power }));
     let tried = floors.filter_map(|floor| Some((of(floor)?, floor)));
-    match tried.max_by(|(a, _), (b, _)| a.nats().total_cmp(&b.nats())) {
-        Some((best, floor)) if best.nats_over(&base) > MIN_NATS && best.share >= MIN_SHARE => floor,
-        _ => frfs.noise,
-    }
+    let (best, floor) = tried.max_by(|(a, _), (b, _)| a.nats().total_cmp(&b.nats()))?;
+    (best.nats_over(&base) > MIN_NATS && best.share >= MIN_SHARE).then_some(floor)
 }
 
 /// χ² of what a rational function leaves of each neighbourhood (sensor, first line), and the mean of ln σ² there; `None` where one has no fit.
@@ -160,16 +162,12 @@ impl Likelihood {
 mod tests {
     use super::*;
     use crate::frequency::linear_hz;
+    use crate::identify::random::normal_numbers;
 
     /// A structure of some modes, as narrow as asked, and noise that is a part of the response, or has a floor that is white in some derivative of the displacement.
     fn found(loss: f64, of: impl Fn(f64, f64) -> f64) -> Option<NoiseFloor> {
         let frequency_hz = linear_hz(20.0, 500.0, 200);
-        let mut state = 11u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+        let mut normal = normal_numbers(11);
         let modes = [(47.0, 1.0), (130.0, -0.7), (210.0, 0.4), (330.0, -1.0), (433.0, 1.0)];
         let exact = |f: f64, m: f64| -> c64 {
             modes
@@ -179,14 +177,10 @@ mod tests {
         };
         let receptance: Vec<Vec<c64>> = frequency_hz
             .iter()
-            .map(|&f| {
-                [0.0, 0.5]
-                    .map(|m| exact(f, m))
-                    .map(|u| u + of(u.norm(), f) * c64::new(normal(), normal()))
-                    .to_vec()
-            })
+            .map(|&f| [0.0, 0.5].map(|m| exact(f, m)).map(|u| u + of(u.norm(), f) * normal()).to_vec())
             .collect();
         let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &receptance, noise: Noise::Unknown };
+        assert_eq!(with_floor(Frfs { noise: Noise::Known(&[]), ..frfs }), Noise::Known(&[]));
         match with_floor(frfs) {
             Noise::Floor(floor) => Some(floor),
             _ => None,

@@ -163,6 +163,7 @@ impl Whitening {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::random::normal_numbers;
     use frfit_linalg::dense::Cholesky;
 
     /// A rest of 3 % beside noise of 0.5 %, that differs from line to line, or that is alike over eight of them.
@@ -170,13 +171,7 @@ mod tests {
     fn the_likeliest_rest_is_the_one_that_was_made() {
         let (count, std, noise) = (400, 0.03, 0.005);
         for over in [0.0, 8.0] {
-            let mut state = 7u64;
-            let mut uniform = || {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (state >> 11) as f64 / (1u64 << 53) as f64
-            };
-            let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
-            let mut random = || c64::new(normal(), normal());
+            let mut random = normal_numbers(7);
             let kept: f64 = if over > 0.0 { f64::exp(-1.0 / over) } else { 0.0 };
             let mut z = random();
             let residual = |_| {
