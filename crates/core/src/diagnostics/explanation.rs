@@ -253,8 +253,8 @@ pub(super) fn choose<'e>(as_given: &'e Explanation, tried: &'e [Explanation]) ->
 
 /// All single changes of values, then pairs where no single one explains the data.
 pub(super) fn changes(search: &Search<'_, '_>, grid: &Grid, as_given: &Explanation) -> Vec<Explanation> {
-    // No misfit is taken to be smaller than that floor: from here nothing can fall far enough.
-    if MAX_MISFIT_RATIO * as_given.fitted.worst() < misfit::MIN_MISFIT {
+    // What the moduli explain needs no fault: one that data show leaves more.
+    if as_given.fitted.worst() <= EXPLAINED_MISFIT {
         return Vec::new();
     }
     let mut tried = single_changes(search, grid, as_given);
@@ -349,7 +349,7 @@ mod tests {
         let edits: Vec<Edit> =
             edits.iter().map(|(change, of)| Edit { change: change.clone(), sensors: of.to_vec() }).collect();
         let data_hypothesis = edits.iter().fold(given, |given, edit| given.with(edit));
-        let moduli = Moduli { ln_sizes: vec![0.0], ln_loss: 0.0, slope: 0.0 };
+        let moduli = Moduli { ln_sizes: vec![0.0], ln_loss: 0.0, slope: 0.0, loss_slope: 0.0 };
         let misfit = Misfit { nats, sigma: own[0].min(own[1]) };
         // A factor has a name: in g.
         let ln_factor = KnownFactor::StandardGravity.value().ln();

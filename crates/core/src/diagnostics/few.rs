@@ -184,26 +184,25 @@ pub(super) fn look<T>(
         diagnosis.not_judged = Some(NotJudged::Breakdown);
         return Ok((diagnosis, None));
     };
-    let (mut as_given, mut tried) = look.explanations(&responses_there)?;
     if responses_there.is_modal() {
         // The modes of the likeliest values, in place of those of the nominal ones.
-        let likeliest = choose(&as_given, &tried).map_or(&as_given, |choice| choice.best);
-        let by_modes = if likeliest.fitted.misfit.sigma <= LARGE_MISFIT {
+        let likeliest = look.likeliest(&responses_there);
+        let by_modes = if likeliest.misfit.sigma <= LARGE_MISFIT {
             None
         } else {
             let model = (subspace.projection(), &*sensors);
             moduli_by_modes(problem, model, measured, (&parametrization, &frequency_hz), for_each)
         };
-        let moduli = by_modes.unwrap_or_else(|| likeliest.fitted.moduli.clone());
+        let moduli = by_modes.unwrap_or(likeliest.moduli);
         if moduli.ln_sizes.iter().any(|ln| ln.abs() > MODES_LN_RANGE)
             && let Some(nearer) = responses(&moduli)
         {
             responses_there = nearer;
-            (as_given, tried) = look.explanations(&responses_there)?;
         }
     }
+    let (as_given, tried) = look.explanations(&responses_there)?;
     diagnosis.work += look.work.get();
-    let search = Search { responses: &responses_there, written: &written, for_each };
+    let search = look.search(&responses_there);
     let choice = choose(&as_given, &tried);
     let left = match &choice {
         Some(choice) if choice.is_certain() => choice.best,
@@ -251,17 +250,34 @@ struct Look<'x> {
 }
 
 impl Look<'_> {
+    /// The likeliest moduli with data as they are or with one change of their values.
+    fn likeliest(&self, responses: &Responses<'_>) -> Fitted {
+        let search = self.search(responses);
+        let grid = search.grid(self.measured.quantities.len());
+        let as_given = self.as_given(&search, &grid);
+        let tried = explanation::single_changes(&search, &grid, &as_given);
+        choose(&as_given, &tried).map_or(&as_given, |choice| choice.best).fitted.clone()
+    }
+
+    fn search<'s, 'a>(&'s self, responses: &'s Responses<'a>) -> Search<'s, 'a> {
+        Search { responses, written: self.written, for_each: self.for_each }
+    }
+
+    fn as_given(&self, search: &Search<'_, '_>, grid: &Grid) -> Explanation {
+        let decay_per_s = self.problem.model().decay_per_s();
+        let hypothesis = DataHypothesis::as_given(self.measured.quantities, decay_per_s);
+        let fitted = search.fit(&hypothesis, grid, &[]);
+        Explanation::as_given(hypothesis, fitted)
+    }
+
     /// Data as they are, and everything that was tried.
     fn explanations(
         &self,
         responses: &Responses<'_>,
     ) -> Result<(Explanation, Vec<Explanation>), OutsideTable> {
-        let search = Search { responses, written: self.written, for_each: self.for_each };
+        let search = self.search(responses);
         let grid = search.grid(self.measured.quantities.len());
-        let hypothesis =
-            DataHypothesis::as_given(self.measured.quantities, self.problem.model().decay_per_s());
-        let fitted = search.fit(&hypothesis, &grid, &[]);
-        let as_given = Explanation::as_given(hypothesis, fitted);
+        let as_given = self.as_given(&search, &grid);
         let mut tried = explanation::changes(&search, &grid, &as_given);
         // Another axis or row is searched only where nothing simpler explains the data.
         let left = |tried: &[Explanation], misfit: fn(&Fitted) -> f64| {

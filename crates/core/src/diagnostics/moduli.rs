@@ -3,14 +3,19 @@
 use crate::c64;
 use crate::identify::{Dependence, Options, Problem, Variation};
 use crate::material::OutsideTable;
+use std::f64::consts::FRAC_2_PI;
 
 /// An angle of loss beyond this is that of a fluid.
 const MAX_LOSS_ANGLE: f64 = 1.3;
 
-/// E_j(ω) = |Ē_j(ω)| a_j (ω/ω₀)^β exp(iδ_j(ω)) with δ_j = min(q δ̄_j(ω), 1.3).
+/// E_j(ω) = |Ē_j(ω)| a_j x^β exp(d_j(ω) + iδ_j(ω)) with δ_j = min(q x^γ δ̄_j(ω), 1.3), x = ω/ω₀, and the dispersion that belongs to a loss that changes,
+/// $$ d_j = \frac{2}{\pi} q \bar{\delta}_j(\omega_0) \left( \frac{x^\gamma - 1}{\gamma} - \ln x \right) $$
 ///
 /// Ē_j is the nominal and δ̄_j its angle, one where it has none: what is unknown of a law is its size, its slope over
-/// log ω, and how much it damps. Slope and damping are common to all unknowns.
+/// log ω, how much it damps, and the slope of that. Slopes and damping are common to all unknowns.
+///
+/// # Source
+/// H. C. Booij, G. P. J. M. Thoone, Rheol. Acta 21 (1982) 15–24: d ln|E|/d ln ω = 2δ/π nearly.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moduli {
     /// ln a_j, zero of unknowns that stay at their nominal values.
@@ -19,6 +24,8 @@ pub(super) struct Moduli {
     pub(super) ln_loss: f64,
     /// β.
     pub(super) slope: f64,
+    /// γ.
+    pub(super) loss_slope: f64,
 }
 
 impl Moduli {
@@ -46,7 +53,7 @@ struct UnknownAt {
     has_slope: bool,
 }
 
-/// What is unknown: ln a_j, ln q, β.
+/// What is unknown: ln a_j, ln q, β, γ.
 #[derive(Debug, Clone)]
 pub(super) struct Parametrization {
     each: Vec<UnknownAt>,
@@ -114,7 +121,7 @@ impl Parametrization {
 
     /// The nominal values.
     pub(super) fn nominal(&self) -> Moduli {
-        Moduli { ln_sizes: vec![0.0; self.each.len()], ln_loss: 0.0, slope: 0.0 }
+        Moduli { ln_sizes: vec![0.0; self.each.len()], ln_loss: 0.0, slope: 0.0, loss_slope: 0.0 }
     }
 
     /// Each free unknown's number, with its ln a from … to.
@@ -188,22 +195,36 @@ impl Parametrization {
             );
         };
         let [loss, slope] = self.has_loss();
+        let ln_omega = self.ln_omega[i];
         if loss {
-            of_all(&|one| c64::new(0.0, one.angle_slope(moduli, i)));
+            let dispersion = |one: &UnknownAt| one.dispersion(moduli, ln_omega)[0];
+            of_all(&|one| c64::new(dispersion(one), one.angle_slope(moduli, ln_omega, i)));
         }
         if slope {
-            of_all(&|one| if one.has_slope { self.ln_omega[i].into() } else { c64::default() });
+            of_all(&|one| if one.has_slope { ln_omega.into() } else { c64::default() });
+            let by_loss_slope = |one: &UnknownAt| {
+                c64::new(one.dispersion(moduli, ln_omega)[1], one.angle_slope(moduli, ln_omega, i) * ln_omega)
+            };
+            of_all(&|one| if one.has_slope { by_loss_slope(one) } else { c64::default() });
         }
         slopes
     }
 
-    /// Numbers that are free: ln a_j of the free unknowns, ln q and β where there is damping.
+    /// Numbers that are free: ln a_j of the free unknowns, ln q, β and γ where there is damping.
     pub(super) fn coordinates(&self, moduli: &Moduli) -> Vec<f64> {
         let mut at: Vec<f64> = self.free().map(|(j, _)| moduli.ln_sizes[j]).collect();
         let [loss, slope] = self.has_loss();
         at.extend(loss.then_some(moduli.ln_loss));
-        at.extend(slope.then_some(moduli.slope));
+        if slope {
+            at.extend([moduli.slope, moduli.loss_slope]);
+        }
         at
+    }
+
+    /// Which of the [`Self::coordinates`] is γ, if any.
+    pub(super) fn loss_slope_at(&self) -> Option<usize> {
+        let [loss, slope] = self.has_loss();
+        slope.then(|| self.free().count() + usize::from(loss) + 1)
     }
 
     /// What [`Self::coordinates`] are of, from the first of some numbers; the others are left.
@@ -222,6 +243,7 @@ impl Parametrization {
         }
         if slope {
             moduli.slope = next();
+            moduli.loss_slope = next();
         }
         (moduli, rest)
     }
@@ -235,12 +257,43 @@ impl UnknownAt {
 
     fn at(&self, ln_size: f64, moduli: &Moduli, ln_omega: f64, i: usize) -> c64 {
         let slope = if self.has_slope { moduli.slope } else { 0.0 };
-        let size = self.nominal[i].norm() * (ln_size + slope * ln_omega).exp();
+        let [dispersion, _] = self.dispersion(moduli, ln_omega);
+        let size = self.nominal[i].norm() * (ln_size + slope * ln_omega + dispersion).exp();
         if self.is_real {
             return c64::new(size, 0.0);
         }
         let [low, high] = self.angles();
-        c64::from_polar(size, (self.angle(i) * moduli.ln_loss.exp()).clamp(low, high))
+        c64::from_polar(size, self.free_angle(moduli, ln_omega, i).clamp(low, high))
+    }
+
+    /// γ, zero of what has no slope.
+    fn loss_slope(&self, moduli: &Moduli) -> f64 {
+        if self.has_slope { moduli.loss_slope } else { 0.0 }
+    }
+
+    /// δ without its bounds.
+    fn free_angle(&self, moduli: &Moduli, ln_omega: f64, i: usize) -> f64 {
+        self.angle(i) * (moduli.ln_loss + self.loss_slope(moduli) * ln_omega).exp()
+    }
+
+    /// d, which is its slope by ln q too, and its slope by γ; none of a real unknown.
+    fn dispersion(&self, moduli: &Moduli, ln_omega: f64) -> [f64; 2] {
+        if self.is_real {
+            return [0.0; 2];
+        }
+        let scale =
+            FRAC_2_PI * (moduli.ln_loss.exp() * self.angle(self.nominal.len() / 2)).min(MAX_LOSS_ANGLE);
+        let gamma = self.loss_slope(moduli);
+        let step = gamma * ln_omega;
+        // ((eˢ − 1)/s − 1) and its slope by s; by series near zero.
+        let (part, slope) = match step.abs() < 1e-3 {
+            true => (0.5 * step + step * step / 6.0, 0.5 + step / 3.0),
+            false => {
+                let part = step.exp_m1() / step;
+                (part - 1.0, (step.exp() - part) / step)
+            }
+        };
+        [scale * ln_omega * part, scale * ln_omega * ln_omega * slope]
     }
 
     /// Angles from … to.
@@ -249,9 +302,9 @@ impl UnknownAt {
     }
 
     /// ∂δ/∂ln q: none of a real unknown, nor at a bound.
-    fn angle_slope(&self, moduli: &Moduli, i: usize) -> f64 {
+    fn angle_slope(&self, moduli: &Moduli, ln_omega: f64, i: usize) -> f64 {
         let [low, high] = self.angles();
-        let angle = self.angle(i) * moduli.ln_loss.exp();
+        let angle = self.free_angle(moduli, ln_omega, i);
         if self.is_real || angle <= low || angle >= high { 0.0 } else { angle }
     }
 }

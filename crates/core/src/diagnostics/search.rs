@@ -12,6 +12,7 @@ use crate::identify::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 use crate::least_squares::{self, descend};
 use crate::median::median;
 use frfit_linalg::dense::{Matrix, solve};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Step of ln a: a natural frequency moves by half of it, and the valley of a coincidence of twenty measured and computed resonances in log|H| is as wide as a twentieth.
 const LN_SIZE_STEP: f64 = 0.025;
@@ -22,8 +23,12 @@ const LOSS_ANGLES: [f64; 6] = [1e-5, 1e-3, 1e-2, 5e-2, 0.2, 0.8];
 /// Slopes β that are tried beside the nominal's: a modulus rises with frequency, if more slowly than the nominal may say.
 const LOG_SLOPES: [f64; 4] = [0.0, 0.2, 0.45, -0.2];
 
-/// No solid has a slope beyond this.
+/// No solid has a slope beyond this; that of its loss is no larger than of a dashpot.
 const MAX_LOG_SLOPE: f64 = 0.8;
+const MAX_LOSS_SLOPE: f64 = 1.0;
+
+/// How large the slope of a loss usually is.
+const LOSS_SLOPE_STD: f64 = 0.4;
 
 /// Points of the box of several unknowns, for each of them.
 const POINTS_PER_UNKNOWN: usize = 300;
@@ -89,6 +94,17 @@ impl Compared {
     fn rough(&self, ln: &[c64], ln_factor: f64, delay_s: f64) -> c64 {
         beside_noise(self.residual(ln, ln_factor, delay_s), self.noise, START_SCALE)
     }
+}
+
+/// How far least squares go.
+#[derive(Clone, Copy)]
+struct Descent {
+    /// Of the misfit.
+    scale: f64,
+    /// Evaluations for each number.
+    patience: usize,
+    /// Whether the slope of the loss is free.
+    with_loss_slope: bool,
 }
 
 /// Everything a search needs.
@@ -265,17 +281,24 @@ impl Search<'_, '_> {
         }
         let mut found = map(self.for_each, starts.len(), |k| {
             let theta = self.coordinates(data_hypothesis, &starts[k]);
-            self.descended(data_hypothesis, &theta, START_SCALE, FIRST_EVALUATIONS_PER_NUMBER)
+            let descent = Descent {
+                scale: START_SCALE,
+                patience: FIRST_EVALUATIONS_PER_NUMBER,
+                with_loss_slope: false,
+            };
+            self.descended(data_hypothesis, &theta, descent)
         });
         found.extend(starts.iter().map(|start| self.at(data_hypothesis, start)));
         found.sort_by(|a, b| a.nats.total_cmp(&b.nats));
         let polished = map(self.for_each, found.len().min(POLISHED_STARTS), |k| {
-            self.polished(data_hypothesis, found[k].clone())
+            self.polished(data_hypothesis, found[k].clone(), false)
         });
         let best = polished.into_iter().min_by(|a, b| a.nats.total_cmp(&b.nats));
-        best.unwrap_or_else(|| {
+        let best = best.unwrap_or_else(|| {
             self.at(data_hypothesis, &(self.responses.parametrization.nominal(), 0.0, 0.0))
-        })
+        });
+        // The slope of the loss is known only where everything else nearly is.
+        self.polished(data_hypothesis, best, true)
     }
 
     /// A start with the best of all delays.
@@ -330,12 +353,13 @@ impl Search<'_, '_> {
         (moduli, ln_factor, next(delay) / self.top())
     }
 
-    /// How far each size is from the one that is expected; half of its square is its share of −ln likelihood.
+    /// How far each size, and the slope of the loss, is from what is expected; its square is its share of −ln likelihood.
     fn far(&self, moduli: &Moduli) -> impl Iterator<Item = f64> {
         let expected = self.responses.parametrization.expected_ln_size;
         let sizes: Vec<f64> =
             self.responses.parametrization.free().map(|(j, _)| moduli.ln_sizes[j]).collect();
-        sizes.into_iter().map(move |ln| std::f64::consts::FRAC_1_SQRT_2 * (ln - expected) / NOMINAL_LN_STD)
+        let far = sizes.into_iter().map(move |ln| (ln - expected) / NOMINAL_LN_STD);
+        far.chain([moduli.loss_slope / LOSS_SLOPE_STD]).map(|far| FRAC_1_SQRT_2 * far)
     }
 
     /// By how much each number is beyond its bounds.
@@ -343,7 +367,8 @@ impl Search<'_, '_> {
         let outside = |value: f64, [low, high]: [f64; 2]| (value - value.clamp(low, high)).abs();
         let sizes = self.responses.parametrization.free();
         let sizes = sizes.map(|(j, range)| outside(moduli.ln_sizes[j], range));
-        sizes.chain([outside(moduli.slope, [-MAX_LOG_SLOPE, MAX_LOG_SLOPE])]).collect()
+        let slopes = [(moduli.slope, MAX_LOG_SLOPE), (moduli.loss_slope, MAX_LOSS_SLOPE)];
+        sizes.chain(slopes.map(|(slope, most)| outside(slope, [-most, most]))).collect()
     }
 
     fn at(&self, data_hypothesis: &DataHypothesis, start: &Start) -> Fitted {
@@ -414,13 +439,14 @@ impl Search<'_, '_> {
     }
 
     /// Least squares with the scale that is left, until it stays.
-    fn polished(&self, data_hypothesis: &DataHypothesis, start: Fitted) -> Fitted {
+    fn polished(&self, data_hypothesis: &DataHypothesis, start: Fitted, with_loss_slope: bool) -> Fitted {
         let mut best = start;
         for _ in 0..MAX_DESCENTS {
             let scale = best.misfit.sigma;
             let from = (best.moduli.clone(), best.ln_factor, best.delay_s);
             let theta = self.coordinates(data_hypothesis, &from);
-            let there = self.descended(data_hypothesis, &theta, scale, EVALUATIONS_PER_NUMBER);
+            let descent = Descent { scale, patience: EVALUATIONS_PER_NUMBER, with_loss_slope };
+            let there = self.descended(data_hypothesis, &theta, descent);
             if there.nats >= best.nats {
                 break;
             }
@@ -432,15 +458,15 @@ impl Search<'_, '_> {
         best
     }
 
-    /// Where least squares of what the misfit is at a scale lead to, with so many evaluations for each number.
+    /// Where least squares of what the misfit is at a scale lead to.
     fn descended(
         &self,
         data_hypothesis: &DataHypothesis,
         theta: &[f64],
-        scale: f64,
-        patience: usize,
+        Descent { scale, patience, with_loss_slope }: Descent,
     ) -> Fitted {
         let compared = self.compared(data_hypothesis);
+        let held = self.responses.parametrization.loss_slope_at().filter(|_| !with_loss_slope);
         let evaluate = |theta: &[f64]| {
             let (residuals, slopes) = self.with_slopes(data_hypothesis, &compared, theta);
             let turned: Vec<_> = residuals
@@ -459,6 +485,10 @@ impl Search<'_, '_> {
                 .collect();
             let mut jacobian: Vec<f64> = Vec::with_capacity(values.len() * theta.len());
             for (j, slope) in slopes.iter().enumerate() {
+                if held == Some(j) {
+                    jacobian.resize(jacobian.len() + values.len(), 0.0);
+                    continue;
+                }
                 let of_values = turned.iter().zip(slope).map(|(one, by)| one.slope(*by));
                 jacobian.extend(of_values.flat_map(|slope| [slope.re, slope.im]));
                 let mut moved = theta.to_vec();
