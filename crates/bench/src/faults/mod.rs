@@ -19,11 +19,15 @@ use frfit::c64;
 use frfit::diagnostics::{Diagnosis, diagnose};
 use frfit::for_each::sequential;
 use frfit::identify::{Frfs, Noise, Options, Problem, Unknown};
+use frfit::material::{Law, loss_factor};
 use frfit::model::{DynamicStiffness, Experiment, Term};
 use frfit::quantity::Quantity;
 
-/// Nominal over true factor.
+/// Nominal over true storage modulus in the middle of the band.
 const NOMINAL_RATIO: [f64; 2] = [0.4, 1.6];
+
+/// Nominal over true loss factor there: nobody knows the damping that he is about to measure.
+const NOMINAL_LOSS_RATIO: [f64; 2] = [0.3, 3.0];
 
 /// Which faults are planted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +56,10 @@ pub fn tried(seed: u64, index: u64, which: Which) -> Result<Tried, Failure> {
         let draw = |attempt: u64| Case::draw(seed, number(attempt), Setting::USUAL, Unknowns::One);
         let mut case = draw(0).or_else(|_| draw(1))?;
         let mut dice = Dice::new(seed ^ 0xFA17, index);
-        case.model = nominal(&case, dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]))?;
+        let ratio = dice.between(NOMINAL_RATIO[0], NOMINAL_RATIO[1]);
+        let mut of_loss = Dice::new(seed ^ 0x1055, index);
+        case.model =
+            nominal(&case, ratio, of_loss.log_between(NOMINAL_LOSS_RATIO[0], NOMINAL_LOSS_RATIO[1]))?;
         let mut data = Data {
             frequency_hz: case.frequency_hz.clone(),
             written: case.measured.clone(),
@@ -77,10 +84,12 @@ pub fn tried(seed: u64, index: u64, which: Which) -> Result<Tried, Failure> {
     run().map_err(|why: Failure| format!("case {index}: {why}").into())
 }
 
-/// The model of a case with its unknown factor at `ratio` times the true one.
-fn nominal(case: &Case, ratio: f64) -> Result<DynamicStiffness, Failure> {
+/// The model of a case as its user has it: a constant modulus, whatever the material does over the band.
+fn nominal(case: &Case, ratio: f64, loss_ratio: f64) -> Result<DynamicStiffness, Failure> {
+    let truth = case.truth.at(case.frequency_hz[case.frequency_hz.len() / 2])?;
+    let factor = Law::complex_modulus(ratio * truth.re, loss_ratio * loss_factor(truth));
     let term = |term: &Term| match term.name == UNKNOWN {
-        true => Term { factor: case.truth.scaled(ratio), ..term.clone() },
+        true => Term { factor: factor.clone(), ..term.clone() },
         false => term.clone(),
     };
     Ok(DynamicStiffness::new(case.model.terms().iter().map(term).collect())?)
