@@ -237,7 +237,12 @@ fn noise(text: &mut Text, job: &IdentifyJob) {
         _ => "times the assumed noise",
     };
     let source = match found.noise.source {
-        NoiseSource::Given => "as given".to_owned(),
+        NoiseSource::Given => match found.noise.correlation {
+            Some(c) => format!(
+                "as given; the sensors have it in common (correlation {c:.2}), which makes error bars longer"
+            ),
+            None => "as given".to_owned(),
+        },
         NoiseSource::Sensors => {
             format!("{level:.1e} {of}, from the misfit of the sensors")
         }

@@ -31,15 +31,36 @@ pub enum Noise<'a> {
     Floor(NoiseFloor),
     /// Known up to a common factor, as from a coherence without the number of averages.
     Relative(&'a [Vec<f64>]),
-    /// Known.
+    /// Known. Where the responses show that a part of it is common to all sensors, that is part of it ([`Noise::Common`]).
     Known(&'a [Vec<f64>]),
+    /// Known, and in part common to all sensors: that of the force, or of leakage.
+    Common(CommonNoise<'a>),
 }
 
 impl Noise<'_> {
+    /// Whether its size is known.
+    pub(crate) fn is_known(&self) -> bool {
+        matches!(self, Self::Known(_) | Self::Common(_))
+    }
+
     /// Whether nothing is known of its size: it is found as a part of the response.
     pub(crate) fn is_part_of_response(&self) -> bool {
         matches!(self, Self::Unknown | Self::Floor(_))
     }
+}
+
+/// Noise of which a part is the same in all sensors over their responses. Sensors then say less than their number.
+///
+/// Of n sensors with correlation c, an error that they have in common is √(1 + (n − 1) c) times what n independent ones would leave; all standard deviations are
+/// longer by that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CommonNoise<'a> {
+    /// The standard deviations that were given, `[frequency][sensor]`.
+    pub std: &'a [Vec<f64>],
+    /// c: the correlation of two sensors' noise over their responses.
+    pub correlation: f64,
+    /// √(1 + (n − 1) c).
+    pub times: f64,
 }
 
 /// A part of the noise that does not grow with the response: that of an amplifier or a converter.
@@ -72,11 +93,12 @@ pub(crate) fn standard_deviations(
         sizes
     };
     let sizes: Vec<Vec<f64>> = sensors.map(sorted).collect();
+    let given =
+        |std: f64, m: usize| (std / 2f64.sqrt()).max(MIN_STD_OVER_LARGEST * sizes[m][sizes[m].len() - 1]);
     let row = |(i, u): (usize, &Vec<c64>)| {
         let of = |(m, u): (usize, &c64)| match noise {
-            Noise::Known(std) | Noise::Relative(std) => {
-                (std[i][m] / 2f64.sqrt()).max(MIN_STD_OVER_LARGEST * sizes[m][sizes[m].len() - 1])
-            }
+            Noise::Known(std) | Noise::Relative(std) => given(std[i][m], m),
+            Noise::Common(common) => common.times * given(common.std[i][m], m),
             Noise::Unknown => u.norm().max(MIN_SIZE_OVER_MEDIAN * sizes[m][sizes[m].len() / 2]),
             Noise::Floor(floor) => {
                 floor.std(u.norm(), sizes[m][sizes[m].len() / 2], frequency_hz[i] / middle_hz(frequency_hz))

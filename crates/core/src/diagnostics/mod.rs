@@ -38,7 +38,9 @@ pub use finding::{
 };
 
 use crate::for_each::ForEach;
-use crate::identify::{Context, Noise, Options, Problem, ProblemError, ReducedBand, dead_channels};
+use crate::identify::{
+    CommonNoise, Context, Noise, Options, Problem, ProblemError, ReducedBand, dead_channels,
+};
 use crate::quantity::Quantity;
 use crate::subspace::Subspace;
 use few::{Measured, Model, Part};
@@ -113,7 +115,7 @@ fn diagnose_by(
     let dead = dead_channels(receptance);
     let live: Vec<usize> = (0..sensors).filter(|m| !dead.contains(m)).collect();
     let std = match problem.frfs().noise {
-        Noise::Known(std) => Some(std),
+        Noise::Known(std) | Noise::Common(CommonNoise { std, .. }) => Some(std),
         Noise::Relative(_) | Noise::Floor(_) | Noise::Unknown => None,
     };
     let all = Measured { experiment: problem.experiment(), receptance, quantities, std };

@@ -53,10 +53,15 @@ pub(super) fn of_responses((omegas, measured): (&[f64], &[Vec<c64>]), sigma: &[V
 
 /// χ² of the lines (frequency, response, σ) of a neighbourhood; `None` where they do not determine the function.
 pub(super) fn what_is_left(lines: &[(f64, c64, f64)]) -> Option<f64> {
+    Some(residuals(lines)?.iter().map(|r| r.norm_sqr()).sum())
+}
+
+/// What the function leaves of each line over its σ.
+pub(super) fn residuals(lines: &[(f64, c64, f64)]) -> Option<Vec<c64>> {
     let [first, last] = [lines[0].0, lines[lines.len() - 1].0];
     let t = |k: usize| (2.0 * lines[k].0 - first - last) / (last - first);
     let mut denominator = vec![1.0; lines.len()];
-    let mut left = None;
+    let mut left: Option<Vec<c64>> = None;
     for _ in 0..ROUNDS {
         let weight = |k: usize| 1.0 / (lines[k].2 * denominator[k]);
         let a =
@@ -66,14 +71,14 @@ pub(super) fn what_is_left(lines: &[(f64, c64, f64)]) -> Option<f64> {
             });
         let b: Vec<c64> = lines.iter().enumerate().map(|(k, line)| weight(k) * line.1).collect();
         let fit = least_squares(&a, &b).ok()?;
-        left = Some(fit.residual * fit.residual);
+        left = Some(a.multiply(&fit.solution).iter().zip(&b).map(|(fitted, b)| b - fitted).collect());
         for (k, size) in denominator.iter_mut().enumerate() {
             let own = &fit.solution[NUMERATOR..];
             let sum = own.iter().enumerate().map(|(j, b)| b * t(k).powi(j as i32 + 1)).sum::<c64>();
             *size = (1.0 + sum).norm();
         }
     }
-    left.filter(|left| left.is_finite())
+    left.filter(|left| left.iter().all(|r| r.is_finite()))
 }
 
 #[cfg(test)]

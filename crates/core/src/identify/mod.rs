@@ -17,6 +17,7 @@ mod channel;
 mod channel_coordinates;
 mod choice;
 mod coarser_mesh;
+mod common_noise;
 mod confirmation;
 mod context;
 mod dead_channel;
@@ -44,7 +45,7 @@ mod thinned;
 mod uncertainty;
 mod unknown;
 
-pub use crate::frfs::{Frfs, Noise, NoiseFloor};
+pub use crate::frfs::{CommonNoise, Frfs, Noise, NoiseFloor};
 pub use crate::response::relative_error;
 pub use band::SmoothCurve;
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};

@@ -56,12 +56,14 @@ pub struct NoiseLevel {
     pub of_scatter: Option<f64>,
     /// The floor that the assumed standard deviations have, where the responses show one.
     pub floor: Option<NoiseFloor>,
+    /// The correlation of two sensors' noise over their responses, where the responses show one: it is in the assumed standard deviations.
+    pub correlation: Option<f64>,
 }
 
 impl NoiseLevel {
     pub(super) fn new(noise: Noise<'_>, of_sensors: Option<f64>, of_scatter: Option<f64>) -> Self {
         let (level, source) = match (noise, of_sensors, of_scatter) {
-            (Noise::Known(_), ..) => (Some(1.0), NoiseSource::Given),
+            (Noise::Known(_) | Noise::Common(_), ..) => (Some(1.0), NoiseSource::Given),
             (_, Some(level), _) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Sensors),
             (_, None, Some(level)) => (Some(level.max(MIN_NOISE_LEVEL)), NoiseSource::Scatter),
             (_, None, None) => (None, NoiseSource::Nothing),
@@ -70,12 +72,22 @@ impl NoiseLevel {
             Noise::Floor(floor) => Some(floor),
             _ => None,
         };
-        Self { level, source, of_sensors, of_scatter, floor }
+        let correlation = match noise {
+            Noise::Common(common) => Some(common.correlation),
+            _ => None,
+        };
+        Self { level, source, of_sensors, of_scatter, floor, correlation }
     }
 
     /// Nothing known, as where each frequency is answered alone.
-    pub(super) const UNKNOWN: Self =
-        Self { level: None, source: NoiseSource::Nothing, of_sensors: None, of_scatter: None, floor: None };
+    pub(super) const UNKNOWN: Self = Self {
+        level: None,
+        source: NoiseSource::Nothing,
+        of_sensors: None,
+        of_scatter: None,
+        floor: None,
+        correlation: None,
+    };
 }
 
 /// Half the width of the neighbourhood that has the level of a response, in ln ω: a third of an octave in all.

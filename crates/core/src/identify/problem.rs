@@ -3,6 +3,7 @@
 use super::channel::ChannelUnknowns;
 use super::choice::{Method, Reduction, Selection};
 use super::coarser_mesh::CoarserMesh;
+use super::common_noise::with_correlation;
 use super::measured::Band;
 use super::noise_floor::with_floor;
 use super::options::{ModelErrors, Options};
@@ -70,7 +71,7 @@ impl<'a> Problem<'a> {
         problem.check_noise()?;
         problem.check_unknowns()?;
         problem.check_channels()?;
-        problem.frfs.noise = with_floor(frfs);
+        problem.frfs.noise = with_correlation(Frfs { noise: with_floor(frfs), ..frfs });
         Ok(problem)
     }
 

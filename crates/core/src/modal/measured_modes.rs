@@ -6,7 +6,7 @@ use super::stabilisation::{MAX_DAMPING_RATIO, ORDER_STEP, PoleAtOrder, stabilisa
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::frequency::{damping_ratio, natural_frequency_hz, omega_rad_s};
-use crate::frfs::{Frfs, Noise, standard_deviations};
+use crate::frfs::{Frfs, standard_deviations};
 use crate::with_fields::with_fields;
 use frfit_linalg::dense::NoConvergence;
 
@@ -121,7 +121,7 @@ pub fn measured_modes(
         decay_per_s: options.decay_per_s,
     };
     let diagram = stabilisation(&measured, options.max_order, for_each)?;
-    let noise_known = matches!(frfs.noise, Noise::Known(_));
+    let noise_known = frfs.noise.is_known();
     let search = PoleSearch { measured, noise_known, for_each };
     let candidates = candidates(&diagram);
     let found = search.selected(&candidates);

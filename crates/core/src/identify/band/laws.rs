@@ -14,7 +14,7 @@ use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
 use crate::c64;
 use crate::for_each::map;
-use crate::frfs::{Noise, standard_deviations};
+use crate::frfs::standard_deviations;
 use crate::identify::channel::{Calibrated, Calibration, Channel, ChannelUnknowns};
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::{Context, Stage};
@@ -305,7 +305,7 @@ impl Fitting<'_, '_> {
             // A sensor that is left out has an infinite standard deviation.
             residuals: (2 * self.sigma.iter().flatten().filter(|sigma| sigma.is_finite()).count())
                 .saturating_sub(self.unknown.iter().map(|unknown| unknown.count()).sum()),
-            sigma_known: matches!(self.band.noise, Noise::Known(_)),
+            sigma_known: self.band.noise.is_known(),
         }
     }
 

@@ -33,7 +33,7 @@ pub(super) fn contradicting(
     while sensors - out.len() > 2 {
         let with_all = trial.misfit(&out);
         let floor = match task.band.noise {
-            Noise::Known(_) => 1.0,
+            Noise::Known(_) | Noise::Common(_) => 1.0,
             Noise::Unknown | Noise::Floor(_) | Noise::Relative(_) => {
                 MIN_DOUBTFUL_MISFIT * MIN_DOUBTFUL_MISFIT
             }

@@ -1,7 +1,7 @@
 //! A band as it is with other calibrations and with what is beside its noise.
 
 use crate::c64;
-use crate::frfs::Noise;
+use crate::frfs::{CommonNoise, Noise};
 use crate::identify::channel::Channel;
 use crate::identify::measured::Band;
 use crate::identify::noise::{beside, levels};
@@ -29,6 +29,7 @@ impl Scaled {
         let std = match band.noise {
             Noise::Unknown | Noise::Floor(_) => Vec::new(),
             Noise::Relative(std) | Noise::Known(std) => scaled(std),
+            Noise::Common(common) => scaled(common.std),
         };
         Self { measured: measured.collect(), std }
     }
@@ -47,6 +48,7 @@ impl Scaled {
             unknown @ (Noise::Unknown | Noise::Floor(_)) => unknown,
             Noise::Relative(_) => Noise::Relative(&self.std),
             Noise::Known(_) => Noise::Known(&self.std),
+            Noise::Common(common) => Noise::Common(CommonNoise { std: &self.std, ..common }),
         };
         Band { measured: &self.measured, noise, ..*band }
     }

@@ -316,7 +316,7 @@ impl Smoothing<'_, '_> {
             total += misfit;
         }
         let observations = self.placed(each.into_iter().map(|(o, _)| o).collect());
-        let known = matches!(self.band.noise, Noise::Known(_));
+        let known = self.band.noise.is_known();
         Linearised {
             observations,
             evidence: Evidence { numbers: self.numbers(), known, beside },
@@ -390,7 +390,7 @@ impl Smoothing<'_, '_> {
 
     fn noise(&self, free: &NoiseLevel, level: f64) -> NoiseLevel {
         match self.band.noise {
-            Noise::Known(_) => *free,
+            Noise::Known(_) | Noise::Common(_) => *free,
             _ => NoiseLevel { level: Some(level.max(MIN_NOISE_LEVEL)), source: NoiseSource::Curve, ..*free },
         }
     }

@@ -2,7 +2,6 @@
 
 use super::candidates::{Candidates, Fit, Solution};
 use crate::c64;
-use crate::frfs::Noise;
 use crate::identify::context::{Context, Stage};
 use crate::identify::measured::Band;
 use crate::identify::noise::{NoiseLevel, freedom, of_scatter, of_sensors};
@@ -100,7 +99,7 @@ impl Task<'_, '_> {
             .collect();
         let options = SelectOptions {
             sensors: self.sensors,
-            sigma_known: matches!(self.band.noise, Noise::Known(_)),
+            sigma_known: self.band.noise.is_known(),
             ..SelectOptions::default()
         };
         let choices = choose(&frequency_hz, &nodes, &options);

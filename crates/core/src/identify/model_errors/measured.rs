@@ -26,7 +26,7 @@ pub(in crate::identify) enum NoiseScale {
 
 impl NoiseScale {
     pub(in crate::identify) fn of(noise: Noise<'_>) -> Self {
-        if matches!(noise, Noise::Known(_)) { Self::Known } else { Self::Relative }
+        if noise.is_known() { Self::Known } else { Self::Relative }
     }
 }
 

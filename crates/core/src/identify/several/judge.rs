@@ -79,7 +79,7 @@ impl Task<'_, '_> {
         let of_sensors = (freedom > 0).then(|| (chi_squared / freedom as f64).sqrt());
         let frfs = self.problem.frfs;
         let of_responses = match frfs.noise {
-            Noise::Known(_) => None,
+            Noise::Known(_) | Noise::Common(_) => None,
             _ => of_responses((&self.omegas, frfs.receptance), &self.sigma),
         };
         let noise = NoiseLevel::new(frfs.noise, of_sensors, of_responses);

@@ -77,7 +77,7 @@ impl Task<'_, '_> {
     /// χ² of usual noise.
     fn usual_chi_squared(&self) -> f64 {
         match self.problem.frfs.noise {
-            Noise::Known(_) => 1.0,
+            Noise::Known(_) | Noise::Common(_) => 1.0,
             Noise::Unknown | Noise::Floor(_) | Noise::Relative(_) => {
                 USUAL_NOISE_OVER_RESPONSE * USUAL_NOISE_OVER_RESPONSE
             }

@@ -2,7 +2,6 @@
 
 use super::Task;
 use super::at_frequency::{FrequencyProblem, Solution};
-use crate::frfs::Noise;
 use crate::identify::unknown::Unknown;
 use crate::least_squares::inverse_information;
 use crate::select::{Choice, Node, SelectOptions, choose};
@@ -32,7 +31,7 @@ impl Task<'_, '_> {
         }
         let options = SelectOptions {
             sensors: self.problem.experiment.sensors.len() - self.left_out.len(),
-            sigma_known: matches!(self.problem.frfs.noise, Noise::Known(_)),
+            sigma_known: self.problem.frfs.noise.is_known(),
             ..SelectOptions::default()
         };
         let frequency_hz: Vec<f64> = which.iter().map(|&i| self.problem.frfs.frequency_hz[i]).collect();
