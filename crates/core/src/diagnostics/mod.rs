@@ -1,7 +1,7 @@
 //! What is wrong with data against a model, in words that name what to change, before anything is identified.
 //!
 //! The unknowns are not known yet. So every way to read the data is judged after the likeliest values for it: the nominal ones times a number each, with a slope
-//! over log ω and a damping that they have in common, within the bounds and a factor of four. One subspace for the whole box (B-3) answers for all values: of one
+//! over log ω, a damping and its slope that they have in common, within the bounds and a factor of four. One subspace for the whole box (B-3) answers for all values: of one
 //! unknown its response at each of some forty frequencies is a sum over poles, x_m(c) = Σ_k ρ_mk/(1 + cλ_k); of several it is a sum over the modes at values near by,
 //! which the natural frequencies of the measurement show whatever is wrong with its values.
 //! What is compared are residuals ln(measured/model), magnitude and phase together, by the
