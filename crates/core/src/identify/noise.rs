@@ -10,6 +10,10 @@ use crate::select::{Choice, Node};
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
 pub(super) const MIN_NOISE_LEVEL: f64 = 1e-6;
 
+/// Of independent noise the scatter of n answers is the misfit of the sensors, with a relative standard deviation of 1/√n at most. They have noise in common from so many of
+/// these on.
+const SCATTER_DEVIATIONS: f64 = 3.0;
+
 /// Answers with two neighbours on either side that a scatter is estimated from: with fewer, a median is an accident.
 const MIN_SCATTER_ANSWERS: usize = 12;
 
@@ -58,6 +62,8 @@ pub struct NoiseLevel {
     pub floor: Option<NoiseFloor>,
     /// The correlation of two sensors' noise over their responses, where the responses show one: it is in the assumed standard deviations.
     pub correlation: Option<f64>,
+    /// The scatter of the answers where the sensors have noise in common, which they do not show.
+    pub common: Option<f64>,
 }
 
 impl NoiseLevel {
@@ -76,7 +82,21 @@ impl NoiseLevel {
             Noise::Common(common) => Some(common.correlation),
             _ => None,
         };
-        Self { level, source, of_sensors, of_scatter, floor, correlation }
+        Self { level, source, of_sensors, of_scatter, floor, correlation, common: None }
+    }
+
+    /// With the scatter of so many answers where it is more than sensors say that are independent: noise of the force, and leakage, change all of them by the same factor,
+    /// and a factor explains that.
+    pub(super) fn with_common(self, answers: usize) -> Self {
+        let least = 1.0 + SCATTER_DEVIATIONS / (answers.max(1) as f64).sqrt();
+        match (self.of_sensors, self.of_scatter) {
+            (Some(sensors), Some(scatter))
+                if self.source != NoiseSource::Given && scatter > (least * sensors).max(MIN_NOISE_LEVEL) =>
+            {
+                Self { level: Some(scatter), source: NoiseSource::Scatter, common: Some(scatter), ..self }
+            }
+            _ => self,
+        }
     }
 
     /// Nothing known, as where each frequency is answered alone.
@@ -87,6 +107,7 @@ impl NoiseLevel {
         of_scatter: None,
         floor: None,
         correlation: None,
+        common: None,
     };
 }
 

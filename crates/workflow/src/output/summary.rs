@@ -243,7 +243,7 @@ fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
 
 /// How large the noise is, and where that is known from: `level` is in units of what `deviation` names.
 fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
-    let NoiseLevel { level, source, of_sensors, of_scatter, floor, correlation } = run.found.noise;
+    let NoiseLevel { level, source, of_sensors, of_scatter, floor, correlation, common } = run.found.noise;
     let deviation = match &identify.noise {
         MeasuredNoise::Known(_) => "std, or coherence and averages, of the measurements",
         MeasuredNoise::Relative(_) => "coherence of the measurements, as of one average",
@@ -255,7 +255,7 @@ fn noise(identify: &IdentifyCase, run: &IdentifyRun) -> Value {
     json!({
         "level": level, "source": source.name(), "deviation": deviation,
         "level_of_sensors": of_sensors, "level_of_scatter": of_scatter,
-        "correlation_of_sensors": correlation,
+        "correlation_of_sensors": correlation, "level_in_common": common,
         "floor": floor.map(|floor| json!({"over_median": floor.over_median, "power": floor.power})),
     })
 }

@@ -475,7 +475,8 @@ impl Fitting<'_, '_> {
         let is_noise = fit.is_none_or(|fit| fit.verdict != Explained::No);
         let shown =
             [per_frequency.of_sensors, per_frequency.of_scatter].into_iter().flatten().reduce(f64::min);
-        (fit, if is_noise { left } else { shown.unwrap_or(0.0).min(left) })
+        let level = if is_noise { left } else { shown.unwrap_or(0.0).min(left) };
+        (fit, level.max(per_frequency.common.unwrap_or(0.0)))
     }
 
     /// The law at one frequency, judged there; noise over the assumed standard deviations.

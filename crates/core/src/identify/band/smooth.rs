@@ -391,7 +391,10 @@ impl Smoothing<'_, '_> {
     fn noise(&self, free: &NoiseLevel, level: f64) -> NoiseLevel {
         match self.band.noise {
             Noise::Known(_) | Noise::Common(_) => *free,
-            _ => NoiseLevel { level: Some(level.max(MIN_NOISE_LEVEL)), source: NoiseSource::Curve, ..*free },
+            _ => {
+                let level = level.max(free.common.unwrap_or(0.0)).max(MIN_NOISE_LEVEL);
+                NoiseLevel { level: Some(level), source: NoiseSource::Curve, ..*free }
+            }
         }
     }
 

@@ -82,6 +82,7 @@ impl Task<'_, '_> {
             of_sensors(&nodes, choices, self.freedom()),
             of_scatter(self.band.frequency_hz, &chosen, self.band.unknown.real),
         )
+        .with_common(chosen.iter().flatten().count())
     }
 
     /// The choice among what was found at some frequencies.
