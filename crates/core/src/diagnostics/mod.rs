@@ -39,7 +39,7 @@ pub use finding::{
 
 use crate::for_each::ForEach;
 use crate::identify::{
-    CommonNoise, Context, Noise, Options, Problem, ProblemError, ReducedBand, dead_channels,
+    CommonNoise, Context, Noise, Options, Problem, ProblemError, ReducedBand, dead_channels, live_channels,
 };
 use crate::quantity::Quantity;
 use crate::subspace::Subspace;
@@ -113,7 +113,7 @@ fn diagnose_by(
     }
     let receptance = problem.frfs().receptance;
     let dead = dead_channels(receptance);
-    let live: Vec<usize> = (0..sensors).filter(|m| !dead.contains(m)).collect();
+    let live = live_channels(receptance);
     let std = match problem.frfs().noise {
         Noise::Known(std) | Noise::Common(CommonNoise { std, .. }) => Some(std),
         Noise::Relative(_) | Noise::Floor(_) | Noise::Unknown => None,

@@ -5,8 +5,8 @@
 //! of residuals over responses, z = r |H|/H, sensors m and n have in common
 //! $$ c = \frac{\mathrm{Re} \sum z_m \bar z_n}{\frac{1}{2} \sum (|z_m|^2 + |z_n|^2)} $$
 
-use super::dead_channel::dead_channels;
-use super::local_fit::{FREEDOM, LINES, residuals};
+use super::dead_channel::live_channels;
+use super::local_fit::{FREEDOM, LINES, neighbourhood, residuals};
 use super::thinned::thinned;
 use crate::c64;
 use crate::frfs::{CommonNoise, Frfs, Noise, standard_deviations};
@@ -26,9 +26,7 @@ const MIN_CORRELATION: f64 = 0.05;
 /// The same noise with what it has in common, where its size is known.
 pub(super) fn with_correlation<'a>(frfs: Frfs<'a>) -> Noise<'a> {
     let Noise::Known(std) = frfs.noise else { return frfs.noise };
-    let dead = dead_channels(frfs.receptance);
-    let live: Vec<usize> =
-        (0..frfs.receptance.first().map_or(0, Vec::len)).filter(|m| !dead.contains(m)).collect();
+    let live = live_channels(frfs.receptance);
     match correlation(frfs, &live) {
         Some(correlation) => {
             let times = (1.0 + (live.len() - 1) as f64 * correlation).sqrt();
@@ -38,7 +36,7 @@ pub(super) fn with_correlation<'a>(frfs: Frfs<'a>) -> Noise<'a> {
     }
 }
 
-/// c of all pairs of sensors together; `None` where there is none.
+/// The correlation c of all pairs of sensors; `None` if it is not significant.
 fn correlation(frfs: Frfs<'_>, live: &[usize]) -> Option<f64> {
     let sensors: Vec<usize> = thinned(live, MAX_SENSORS).copied().collect();
     let firsts: Vec<usize> = (0..frfs.frequency_hz.len() / LINES).map(|k| k * LINES).collect();
@@ -46,9 +44,7 @@ fn correlation(frfs: Frfs<'_>, live: &[usize]) -> Option<f64> {
     // z of each sensor whose residual is noise.
     let left = |&from: &usize| -> Vec<Vec<c64>> {
         let of_sensor = |&m: &usize| {
-            let lines: Vec<(f64, c64, f64)> = (from..from + LINES)
-                .map(|i| (frfs.frequency_hz[i], frfs.receptance[i][m], sigma[i][m]))
-                .collect();
+            let lines = neighbourhood((frfs.frequency_hz, frfs.receptance), &sigma, m, from);
             let rest = residuals(&lines)?;
             let chi_squared: f64 = rest.iter().map(|r| r.norm_sqr()).sum();
             let turned = rest.iter().zip(&lines).map(|(r, (_, h, _))| r * h.conj() / h.norm());
@@ -80,19 +76,13 @@ fn correlation(frfs: Frfs<'_>, live: &[usize]) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::frequency::linear_hz;
-    use crate::identify::random::normal_numbers;
+    use crate::identify::simulated::{five_modes, normal_numbers};
 
     /// What is found of three sensors whose noise of one per cent has this correlation.
     fn found(correlation: f64) -> Option<CommonNoise<'static>> {
         let frequency_hz = linear_hz(20.0, 500.0, 200);
         let mut normal = normal_numbers(11);
-        let modes = [(47.0, 1.0), (130.0, -0.7), (210.0, 0.4), (330.0, -1.0), (433.0, 1.0)];
-        let exact = |f: f64, m: f64| -> c64 {
-            modes
-                .iter()
-                .map(|&(own, share)| (1.0 + m * share) / (own * own * c64::new(1.0, 0.05) - f * f))
-                .sum()
-        };
+        let exact = five_modes(0.05);
         let noisy = |&f: &f64| -> Vec<c64> {
             let common = correlation.sqrt() * normal();
             let mut own = || 1.0 + 0.01 * (common + (1.0 - correlation).sqrt() * normal());

@@ -16,6 +16,12 @@ pub(crate) fn dead_channels(measured: &[Vec<c64>]) -> Vec<usize> {
     (0..sensors).filter(|&m| levels[m] <= DEAD_RATIO * loudest && loudest > 0.0).collect()
 }
 
+/// The other sensors.
+pub(crate) fn live_channels(measured: &[Vec<c64>]) -> Vec<usize> {
+    let dead = dead_channels(measured);
+    (0..measured.first().map_or(0, Vec::len)).filter(|m| !dead.contains(m)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

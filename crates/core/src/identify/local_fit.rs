@@ -38,10 +38,7 @@ pub(super) fn of_responses((omegas, measured): (&[f64], &[Vec<c64>]), sigma: &[V
     let first: Vec<usize> = (0..(measured.len() + 1).saturating_sub(LINES)).collect();
     let most = MAX_NEIGHBOURHOODS / sensors.len().max(1);
     let left = |m: usize| {
-        let fitted = move |&from: &usize| {
-            let of = |i: usize| (omegas[i], measured[i][m], sigma[i][m]);
-            what_is_left(&(from..from + LINES).map(of).collect::<Vec<_>>())
-        };
+        let fitted = move |&from: &usize| what_is_left(&neighbourhood((omegas, measured), sigma, m, from));
         thinned(&first, most).filter_map(fitted)
     };
     let squares: Vec<f64> = sensors.into_iter().flat_map(left).collect();
@@ -51,7 +48,18 @@ pub(super) fn of_responses((omegas, measured): (&[f64], &[Vec<c64>]), sigma: &[V
     level_of(squares, FREEDOM)
 }
 
-/// χ² of the lines (frequency, response, σ) of a neighbourhood; `None` where they do not determine the function.
+/// The lines (frequency, response, σ) of a sensor's neighbourhood, from its first line on.
+pub(super) fn neighbourhood(
+    (frequencies, measured): (&[f64], &[Vec<c64>]),
+    sigma: &[Vec<f64>],
+    sensor: usize,
+    first: usize,
+) -> Vec<(f64, c64, f64)> {
+    let line = |i: usize| (frequencies[i], measured[i][sensor], sigma[i][sensor]);
+    (first..first + LINES).map(line).collect()
+}
+
+/// χ² of the lines of a neighbourhood; `None` where they do not determine the function.
 pub(super) fn what_is_left(lines: &[(f64, c64, f64)]) -> Option<f64> {
     Some(residuals(lines)?.iter().map(|r| r.norm_sqr()).sum())
 }
@@ -85,7 +93,7 @@ pub(super) fn residuals(lines: &[(f64, c64, f64)]) -> Option<Vec<c64>> {
 mod tests {
     use super::*;
     use crate::frequency::linear_hz;
-    use crate::identify::random::normal_numbers;
+    use crate::identify::simulated::normal_numbers;
 
     /// Noise of a known size on a structure with narrow and wide modes, and a response that has no noise.
     #[test]

@@ -35,12 +35,12 @@ mod options;
 mod outcome;
 mod problem;
 mod problem_error;
-#[cfg(test)]
-mod random;
 mod rational;
 mod reduced_band;
 mod several;
 mod shown_modes;
+#[cfg(test)]
+mod simulated;
 mod thinned;
 mod uncertainty;
 mod unknown;
@@ -54,7 +54,7 @@ pub use channel::{Calibrated, Calibration, ChannelUnknowns};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
 pub use coarser_mesh::CoarserMesh;
 pub use context::{Context, Stage};
-pub(crate) use dead_channel::dead_channels;
+pub(crate) use dead_channel::{dead_channels, live_channels};
 pub use goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 pub use identification::{Identifiability, Identification, SearchReport};
 pub use model_errors::{

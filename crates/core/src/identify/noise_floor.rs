@@ -7,10 +7,9 @@
 //! $$ \ln p = -\frac{n}{2} \left( \ln s^2 + \overline{\ln \sigma^2} \right) - \frac{\chi^2}{2 s^2} $$
 //! or, where modes are too many for a neighbourhood, a size of its own that may be anything: the same whatever the noise is.
 
-use super::dead_channel::dead_channels;
-use super::local_fit::{FREEDOM, LINES, what_is_left};
+use super::dead_channel::live_channels;
+use super::local_fit::{FREEDOM, LINES, neighbourhood, what_is_left};
 use super::thinned::thinned;
-use crate::c64;
 use crate::frfs::{Frfs, Noise, NoiseFloor, standard_deviations};
 use crate::median::median;
 use std::f64::consts::LN_2;
@@ -64,10 +63,8 @@ pub(super) fn with_floor<'a>(frfs: Frfs<'a>) -> Noise<'a> {
 
 /// The likeliest floor, if noise with it is far likelier than without.
 fn shown_floor(frfs: Frfs<'_>) -> Option<NoiseFloor> {
-    let dead = dead_channels(frfs.receptance);
-    let sensors = frfs.receptance.first().map_or(0, Vec::len);
-    let places: Vec<(usize, usize)> = (0..sensors)
-        .filter(|m| !dead.contains(m))
+    let places: Vec<(usize, usize)> = live_channels(frfs.receptance)
+        .into_iter()
         .flat_map(|m| (0..frfs.frequency_hz.len() / LINES).map(move |k| (m, k * LINES)))
         .collect();
     let places: Vec<(usize, usize)> = thinned(&places, MAX_NEIGHBOURHOODS).copied().collect();
@@ -95,8 +92,7 @@ fn shown_floor(frfs: Frfs<'_>) -> Option<NoiseFloor> {
 fn what_noise_leaves(frfs: Frfs<'_>, noise: Noise<'_>, places: &[(usize, usize)]) -> Option<Vec<(f64, f64)>> {
     let sigma = standard_deviations(frfs.frequency_hz, frfs.receptance, noise);
     let left = |&(m, from): &(usize, usize)| {
-        let line = |i: usize| (frfs.frequency_hz[i], frfs.receptance[i][m], sigma[i][m]);
-        let lines: Vec<(f64, c64, f64)> = (from..from + LINES).map(line).collect();
+        let lines = neighbourhood((frfs.frequency_hz, frfs.receptance), &sigma, m, from);
         let of_sigma = lines.iter().map(|line| 2.0 * line.2.ln()).sum::<f64>() / LINES as f64;
         Some((what_is_left(&lines)?, of_sigma))
     };
@@ -167,20 +163,15 @@ impl Likelihood {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::c64;
     use crate::frequency::linear_hz;
-    use crate::identify::random::normal_numbers;
+    use crate::identify::simulated::{five_modes, normal_numbers};
 
     /// A structure of some modes, as narrow as asked, and noise that is a part of the response, or has a floor that is white in some derivative of the displacement.
     fn found(loss: f64, of: impl Fn(f64, f64) -> f64) -> Option<NoiseFloor> {
         let frequency_hz = linear_hz(20.0, 500.0, 200);
         let mut normal = normal_numbers(11);
-        let modes = [(47.0, 1.0), (130.0, -0.7), (210.0, 0.4), (330.0, -1.0), (433.0, 1.0)];
-        let exact = |f: f64, m: f64| -> c64 {
-            modes
-                .iter()
-                .map(|&(own, share)| (1.0 + m * share) / (own * own * c64::new(1.0, loss) - f * f))
-                .sum()
-        };
+        let exact = five_modes(loss);
         let receptance: Vec<Vec<c64>> = frequency_hz
             .iter()
             .map(|&f| [0.0, 0.5].map(|m| exact(f, m)).map(|u| u + of(u.norm(), f) * normal()).to_vec())

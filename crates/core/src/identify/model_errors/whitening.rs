@@ -163,7 +163,7 @@ impl Whitening {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::random::normal_numbers;
+    use crate::identify::simulated::normal_numbers;
     use frfit_linalg::dense::Cholesky;
 
     /// A rest of 3 % beside noise of 0.5 %, that differs from line to line, or that is alike over eight of them.
