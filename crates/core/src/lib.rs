@@ -110,6 +110,7 @@ pub mod series;
 pub mod signal;
 mod smooth;
 pub mod subspace;
+mod thinned;
 mod with_fields;
 
 pub use frfit_linalg as linalg;

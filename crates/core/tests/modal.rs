@@ -8,7 +8,9 @@ use frfit::for_each::sequential;
 use frfit::frequency::{linear_hz, omega_rad_s};
 use frfit::identify::{Frfs, Noise};
 use frfit::material::Law;
-use frfit::modal::{MeasuredModes, PoleOptions, measured_modes};
+use frfit::modal::{
+    HANN_LEAKAGE_RSTD, MeasuredModes, PoleOptions, hann_evidence, hann_leakage, measured_modes,
+};
 use frfit::model::{DynamicStiffness, Experiment, Role};
 use frfit::response::{FullModel, Response};
 use frfit::subspace::{NaturalModes, Subspace};
@@ -222,6 +224,72 @@ fn a_window_on_the_records_moves_no_pole() {
     assert_eq!(found.modes.len(), truth.len());
     for mode in &found.modes {
         assert!(nearest(&truth, mode.pole_per_s).1 < 1e-6, "{mode:?}");
+    }
+}
+
+/// What a Hann window makes of the plate's responses: their mean over frequencies with the window's spectrum |W|² as the weight. It knows nothing of poles.
+fn through_a_hann_window(plate: &Plate, frequency_hz: &[f64], record_s: f64) -> Vec<Vec<c64>> {
+    const PER_LINE: i32 = 24;
+    // Beyond eight lines the weight is below 1e-7 of its largest.
+    let offsets: Vec<f64> =
+        (-8 * PER_LINE..=8 * PER_LINE).map(|k| f64::from(k) / f64::from(PER_LINE)).collect();
+    let weight = |x: f64| -> f64 {
+        if x == 0.0 {
+            return 1.0;
+        }
+        if (x.abs() - 1.0).abs() < 1e-12 {
+            return 0.25;
+        }
+        let angle = std::f64::consts::PI * x;
+        (angle.sin() / angle / (1.0 - x * x)).powi(2)
+    };
+    let sum: f64 = offsets.iter().map(|&x| weight(x)).sum();
+    let mean = |&f: &f64| {
+        let mut means = vec![c64::default(); 3];
+        let shifted: Vec<f64> = offsets.iter().map(|x| f + x / record_s).collect();
+        for (x, responses) in offsets.iter().zip(plate.responses(&shifted)) {
+            for (mean, response) in means.iter_mut().zip(responses) {
+                *mean += weight(*x) / sum * response;
+            }
+        }
+        means
+    };
+    frequency_hz.iter().map(mean).collect()
+}
+
+/// From two lines between half-power points at the lowest mode to twenty at the highest: 300 lines, and 900 in pieces.
+#[test]
+fn leakage_of_a_hann_window_is_found_and_removed() {
+    let plate = Plate::new(0.02);
+    for (last, record_s) in [(300, 1.0), (of_tier(500, 900), 1.4)] {
+        let frequency_hz: Vec<f64> = (20..last).map(|k| f64::from(k) / record_s).collect();
+        let exact = plate.responses(&frequency_hz);
+        let through = through_a_hann_window(&plate, &frequency_hz, record_s);
+        let mut draws = Draws::new(5);
+        let std: Vec<Vec<f64>> =
+            through.iter().map(|row| row.iter().map(|x| 2e-3 * x.norm()).collect()).collect();
+        let mut noisy = |responses: &[Vec<c64>]| -> Vec<Vec<c64>> {
+            let mut of = |(x, std): (&c64, &f64)| x + *std * draws.complex();
+            responses.iter().zip(&std).map(|(row, std)| row.iter().zip(std).map(&mut of).collect()).collect()
+        };
+        let (measured, unwindowed) = (noisy(&through), noisy(&exact));
+        let noise = Noise::Known(&std);
+        let frfs = Frfs { frequency_hz: &frequency_hz, receptance: &measured, noise };
+        let leakage = hann_leakage(frfs, record_s, &sequential).unwrap();
+        let (mut largest, mut left) = (0.0_f64, 0.0_f64);
+        // A mode beyond the last line leaks into it, and no line shows that mode.
+        for (i, row) in leakage.iter().enumerate().take(frequency_hz.len() - 20) {
+            for (m, leakage) in row.iter().enumerate() {
+                largest = largest.max((through[i][m] - exact[i][m]).norm() / exact[i][m].norm());
+                let std = std[i][m].hypot(HANN_LEAKAGE_RSTD * leakage.norm());
+                left = left.max((through[i][m] - leakage - exact[i][m]).norm() / std);
+            }
+        }
+        // A quarter of the peak of the lowest mode is lost; what is not removed is within its standard deviation.
+        assert!(largest > 0.2 && left < 2.0, "{largest} {left}");
+        let [with, without] = [&measured, &unwindowed]
+            .map(|receptance| hann_evidence(Frfs { receptance, ..frfs }, record_s, &sequential).unwrap());
+        assert!(with > 100.0 && without < -100.0, "{with} {without}");
     }
 }
 

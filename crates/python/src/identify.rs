@@ -9,6 +9,7 @@ use frfit::laws::LawKind;
 use frfit::model::{DynamicStiffness, Experiment, Sensor};
 use frfit::quantity::Quantity;
 use frfit::roots::Bounds;
+use frfit_workflow::case::RandomWindow;
 use frfit_workflow::job::compute;
 use frfit_workflow::load::{Case, Frf, MeasuredFrf, Wanted, WantedUnknown, case_of_arrays};
 use frfit_workflow::run::RunOptions;
@@ -32,6 +33,8 @@ pub(crate) struct Measured<'py> {
     scale: Option<f64>,
     delay_s: Option<f64>,
     decay_per_s: f64,
+    window: Option<String>,
+    record_s: Option<f64>,
 }
 
 /// The options of `frfit.identify`, by their names.
@@ -140,6 +143,7 @@ impl Measured<'_> {
     fn frf(self, py: Python<'_>) -> PyResult<MeasuredFrf> {
         let numbers = |array: PyReadonlyArray1<'_, f64>| array.as_array().to_vec();
         let quantity = self.quantity.parse::<Quantity>();
+        let window = self.window.as_deref().map(str::parse::<RandomWindow>).transpose();
         let frf = Frf {
             frequency_hz: numbers(self.frequency_hz),
             response: self.response.as_array().to_vec(),
@@ -157,6 +161,8 @@ impl Measured<'_> {
             scale: self.scale,
             delay_s: self.delay_s,
             averages: self.averages,
+            window: window.map_err(|error| raise(py, "OptionsError", &format!("window: {error}")))?,
+            record_s: self.record_s,
         })
     }
 }

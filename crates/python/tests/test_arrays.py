@@ -217,6 +217,8 @@ def test_what_is_wrong_is_said(chain):
         ("measurement.scale: expected a finite number that is not zero, found 0", F, {"scale": 0.0}),
         ("measurement.delay_s: expected a finite number", F, {"delay_s": np.inf}),
         ("measurement.decay_per_s: expected a finite number of 1/s that is not negative", F, {"decay_per_s": -6.0}),
+        ('measurement.window: expected "hann" or "none", found "hamming"', F, {"window": "hamming"}),
+        ("measurement.record_s: expected a number of seconds above 0, found 0", F, {"record_s": 0.0}),
         ("coherences from 0 to 1", F, {"coherence": F}),
     ):
         with pytest.raises(frfit.InputError, match=match):

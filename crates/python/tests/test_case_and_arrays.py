@@ -83,6 +83,7 @@ def identified(chain, values, std, channels, **keys):
 
 UNKNOWN = {"scale": "unknown", "delay_s": "unknown"}
 WINDOW = {"decay_per_s": 0.5}
+HANN = {"window": "hann", "record_s": 0.4}
 
 
 @pytest.mark.parametrize(
@@ -92,10 +93,11 @@ WINDOW = {"decay_per_s": 0.5}
         (({}, {}), {"varies": "smooth"}),
         (({}, {}), {"varies": "law", "law": "fractional"}),
         ((WINDOW, WINDOW), {"varies": "frequency"}),
+        ((HANN, HANN), {"varies": "frequency"}),
         (({}, UNKNOWN), {}),
         ((UNKNOWN, UNKNOWN), {"varies": "law", "law": "fractional"}),
     ],
-    ids=["free", "smooth", "law", "window", "unknown beside known", "all unknown with a law"],
+    ids=["free", "smooth", "law", "window", "Hann window", "unknown beside known", "all unknown with a law"],
 )
 def test_numbers_are_the_same_bit_by_bit(chain: Chain, tmp_path, channels, keys):
     wrong = (SCALE, LATE_S) if channels[1] is UNKNOWN else (1.0, 0.0)

@@ -7,9 +7,9 @@
 
 use super::dead_channel::live_channels;
 use super::local_fit::{FREEDOM, LINES, neighbourhood, residuals};
-use super::thinned::thinned;
 use crate::c64;
 use crate::frfs::{CommonNoise, Frfs, Noise, standard_deviations};
+use crate::thinned::thinned;
 
 /// Sensors and neighbourhoods that are looked at, at most, and neighbourhoods at least.
 const MAX_SENSORS: usize = 12;

@@ -4,13 +4,13 @@
 //! frequency with the same shape, whatever small errors the model has; no solution of single frequencies says as much.
 
 use super::shown_modes::ShownModes;
-use super::thinned::thinned;
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::median::median;
 use crate::modal::{MeasuredMode, PairedShape, best};
 use crate::model::{DynamicStiffness, Role};
 use crate::subspace::{Point, Projection};
+use crate::thinned::thinned;
 use frfit_linalg::vector::norm;
 use std::f64::consts::TAU;
 

@@ -8,8 +8,8 @@
 //! T. McKelvey, G. Guérin, Non-parametric frequency response estimation using a local rational model, IFAC Proc. Vol. 45(16) (2012) 49–54.
 
 use super::noise::level_of;
-use super::thinned::thinned;
 use crate::c64;
+use crate::thinned::thinned;
 use frfit_linalg::dense::{Matrix, least_squares};
 
 /// Lines of a neighbourhood: twice as many numbers as are fitted, and a few more.

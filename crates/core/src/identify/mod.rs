@@ -41,7 +41,6 @@ mod several;
 mod shown_modes;
 #[cfg(test)]
 mod simulated;
-mod thinned;
 mod uncertainty;
 mod unknown;
 

@@ -1,11 +1,11 @@
 //! How large the noise is: as given, or as the band shows it.
 
-use super::thinned::thinned;
 use crate::c64;
 use crate::frequency::omega_rad_s;
 use crate::frfs::{Noise, NoiseFloor};
 use crate::median::median;
 use crate::select::{Choice, Node};
+use crate::thinned::thinned;
 
 /// The least level that is believed of one that is not given: a millionth of the response is roundoff near a resonance.
 pub(super) const MIN_NOISE_LEVEL: f64 = 1e-6;

@@ -9,9 +9,9 @@
 
 use super::dead_channel::live_channels;
 use super::local_fit::{FREEDOM, LINES, neighbourhood, what_is_left};
-use super::thinned::thinned;
 use crate::frfs::{Frfs, Noise, NoiseFloor, standard_deviations};
 use crate::median::median;
+use crate::thinned::thinned;
 use std::f64::consts::LN_2;
 
 /// Floors that are tried, over the median of the response.

@@ -1,11 +1,11 @@
 //! The modes that some lines and sensors of a band show.
 
-use super::thinned::thinned;
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::frfs::Frfs;
 use crate::frfs::Noise;
 use crate::modal::{MeasuredMode, PoleOptions, measured_modes};
+use crate::thinned::thinned;
 use std::f64::consts::TAU;
 
 /// Lines and sensors whose poles are searched, at most.

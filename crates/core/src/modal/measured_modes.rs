@@ -119,6 +119,7 @@ pub fn measured_modes(
         responses: &responses,
         weights: &weights,
         decay_per_s: options.decay_per_s,
+        hann_record_s: None,
     };
     let diagram = stabilisation(&measured, options.max_order, for_each)?;
     let noise_known = frfs.noise.is_known();
@@ -163,7 +164,7 @@ struct Chain {
 }
 
 /// Poles of the diagram that are there at several orders: those of many orders, then those of few.
-fn candidates(diagram: &[PoleAtOrder]) -> [Vec<c64>; 2] {
+pub(super) fn candidates(diagram: &[PoleAtOrder]) -> [Vec<c64>; 2] {
     let mut chains: Vec<Chain> = Vec::new();
     for &pole in diagram {
         let distance = |chain: &Chain| {
@@ -195,10 +196,10 @@ fn is_same(a: c64, b: c64) -> bool {
 }
 
 /// Which poles there are.
-struct PoleSearch<'a> {
-    measured: Measured<'a>,
-    noise_known: bool,
-    for_each: ForEach<'a>,
+pub(super) struct PoleSearch<'a> {
+    pub(super) measured: Measured<'a>,
+    pub(super) noise_known: bool,
+    pub(super) for_each: ForEach<'a>,
 }
 
 impl PoleSearch<'_> {
@@ -217,7 +218,7 @@ impl PoleSearch<'_> {
     }
 
     /// −2 ln of the likelihood, and what the unknowns cost (BIC).
-    fn information(&self, fit: &Fit, fitted: &Fitted) -> f64 {
+    pub(super) fn information(&self, fit: &Fit, fitted: &Fitted) -> f64 {
         let numbers = self.measured.numbers() as f64;
         let floor = numbers * MIN_LEVEL * MIN_LEVEL;
         // The level is free also where the noise is known: between resonances no rational function of few poles is as good as a coherence.
@@ -226,7 +227,7 @@ impl PoleSearch<'_> {
     }
 
     /// The fit of the poles that are there.
-    fn selected(&self, [often, seldom]: &[Vec<c64>; 2]) -> Option<(Fit, Fitted)> {
+    pub(super) fn selected(&self, [often, seldom]: &[Vec<c64>; 2]) -> Option<(Fit, Fitted)> {
         let first = self.with_degree(often)?;
         let mut best = self.pruned(first)?;
         // A weak mode next to a strong one shows once that one is fitted.

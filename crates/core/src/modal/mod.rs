@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `stabilisation` | poles of measured responses at growing orders (LSCF) |
 //! | `rational_fit` | poles fitted to all lines at once, with their covariance |
+//! | `hann`, `leakage` | what a Hann window makes of a resonance, and of measured responses |
 //! | `left_over` | resonances in what the fitted poles leave |
 //! | `measured_modes` | which of them are modes |
 //! | `pairing` | which mode of the model is which of the measurement |
@@ -12,6 +13,8 @@
 //! The modes of a model are those of its reduced model: [`Subspace::natural_modes`](crate::subspace::Subspace::natural_modes).
 
 mod correlation;
+mod hann;
+mod leakage;
 mod left_over;
 mod measured_modes;
 mod pairing;
@@ -20,6 +23,7 @@ mod stabilisation;
 mod stiffness_factors;
 
 pub use correlation::{assurance, coordinate_assurance, scale_assurance};
+pub use leakage::{HANN_LEAKAGE_RSTD, hann_evidence, hann_leakage};
 pub use measured_modes::{MeasuredMode, MeasuredModes, PoleOptions, measured_modes};
 pub use pairing::{Pair, PairedShape, Pairing, paired};
 pub(crate) use pairing::{best, nearest_pairs};

@@ -5,9 +5,12 @@
 //! Residues, and what modes outside of the band leave in it, are linear and eliminated sensor by sensor (variable projection): the search is in the
 //! poles alone, and its information is that of the poles with everything else free.
 //!
+//! Through a Hann window 1/(s − s_r) is another function of s − s_r (`hann`).
+//!
 //! # Source
 //! G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413–432; L. Kaufman, BIT 15 (1975) 49–57 (slopes).
 
+use super::hann::hann_resonance;
 use crate::c64;
 use crate::for_each::{ForEach, map};
 use crate::frequency::{laplace_per_s, omega_rad_s};
@@ -22,6 +25,8 @@ pub(super) struct Measured<'a> {
     pub(super) responses: &'a [Vec<c64>],
     pub(super) weights: &'a [Vec<f64>],
     pub(super) decay_per_s: f64,
+    /// T of the records that had a Hann window, s; `None` without one.
+    pub(super) hann_record_s: Option<f64>,
 }
 
 /// Poles, and the order p of the polynomials beside them.
@@ -90,7 +95,7 @@ impl Measured<'_> {
     /// Φ at every line, column after column: of each pole those of Re R and Im R, then those of the polynomials.
     fn functions(&self, fit: &Fit) -> Vec<Vec<c64>> {
         let n = self.frequency_hz.len();
-        let mut functions = self.pole_functions(fit, |near| near);
+        let mut functions = self.pole_functions(fit, |z| self.resonance(z)[0]);
         let lowest = self.s(0).norm_sqr();
         let [first, last] = [self.frequency_hz[0], self.frequency_hz[n - 1]];
         let x = |k: usize| (2.0 * self.frequency_hz[k] - first - last) / (last - first);
@@ -110,11 +115,19 @@ impl Measured<'_> {
         functions
     }
 
-    /// f(1/(s − s_r)) + f(1/(s − s̄_r)) and i times their difference, of each pole.
+    /// 1/z, or what a Hann window makes of it, and its slope by the pole; z = s − s_r.
+    fn resonance(&self, z: c64) -> [c64; 2] {
+        match self.hann_record_s {
+            Some(record_s) => hann_resonance(z, record_s),
+            None => [z.inv(), z.powi(-2)],
+        }
+    }
+
+    /// f(s − s_r) + f(s − s̄_r) and i times their difference, of each pole.
     fn pole_functions(&self, fit: &Fit, f: impl Fn(c64) -> c64) -> Vec<Vec<c64>> {
         let both = |pole: &c64| {
             let pair = (0..self.frequency_hz.len()).map(|k| {
-                let [near, far] = [*pole, pole.conj()].map(|pole| f((self.s(k) - pole).inv()));
+                let [near, far] = [*pole, pole.conj()].map(|pole| f(self.s(k) - pole));
                 (near + far, c64::I * (near - far))
             });
             let (sum, difference) = pair.unzip();
@@ -151,7 +164,7 @@ impl Measured<'_> {
         let own = 2 * fit.poles.len();
         let mut functions = self.functions(fit);
         let count = functions.len();
-        functions.extend(self.pole_functions(fit, |near| near * near));
+        functions.extend(self.pole_functions(fit, |z| self.resonance(z)[1]));
         let of_sensor = |m: usize| {
             let triangle = self.triangle(m, &functions)?;
             let residues = triangle.coefficients(count);

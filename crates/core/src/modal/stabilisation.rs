@@ -66,7 +66,7 @@ pub(super) fn stabilisation(
     max_order: usize,
     for_each: ForEach<'_>,
 ) -> Result<Vec<PoleAtOrder>, NoConvergence> {
-    let Measured { frequency_hz, responses, weights, decay_per_s } = *measured;
+    let Measured { frequency_hz, responses, weights, decay_per_s, .. } = *measured;
     let (n, sensors) = (frequency_hz.len(), measured.sensors());
     let max_order = max_order.min(n / 2);
     if sensors == 0 || max_order < ORDER_STEP || frequency_hz[n - 1] <= frequency_hz[0] {

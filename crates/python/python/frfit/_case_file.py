@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _frfit
 from ._arrays import Complex, hints, refuse, row, shown, word
-from ._identify import CoarserMesh, Measurement, Unknown, arguments_of
+from ._identify import MEASUREMENT_KEYS, CoarserMesh, Measurement, Unknown, arguments_of
 from ._model import Model
 
 _Files: TypeAlias = dict[str, "str | sp.csc_array"]
@@ -188,7 +188,7 @@ def _measurement(file: str, one: Any, names: Mapping[int, str]) -> tuple[dict[st
     table: dict[str, Any] = {"file": file, **spot, "quantity": one.quantity}
     if one.averages is not None:
         table["averages"] = one.averages
-    for key, default in (("scale", 1.0), ("delay_s", 0.0), ("decay_per_s", 0.0)):
+    for key, default in MEASUREMENT_KEYS:
         if (value := getattr(one, key)) != default:
             table[key] = "unknown" if value is None else value
     return table, _csv(columns)

@@ -51,6 +51,14 @@ from ._uff import FrfOfFile, UffDof, frfs_of
 Quantity: TypeAlias = Literal["receptance", "mobility", "accelerance"]
 
 _QUANTITIES = ("receptance", "mobility", "accelerance")
+MEASUREMENT_KEYS: tuple[tuple[str, float | None], ...] = (
+    ("scale", 1.0),
+    ("delay_s", 0.0),
+    ("decay_per_s", 0.0),
+    ("window", None),
+    ("record_s", None),
+)
+"""What a measurement has beside its values, with what it is where nothing is said."""
 _VARIES = ("frequency", "smooth", "constant", "law")
 # The words of the reader of case files.
 _EXPECTED_VARIES = '"frequency" (a value of its own at each), "smooth", "constant" or "law"'
@@ -85,6 +93,11 @@ class Measurement:
     decay_per_s
         Decay rate of an exponential window exp(-decay_per_s t) on force and response, 1/s (``MeasuredFrf.decay_per_s``): the
         model is evaluated at the complex frequency of the window. The same for all measurements.
+    window
+        Window of random excitation. ``"hann"``: what leaks into the lines around narrow resonances is removed; ``"none"``:
+        nothing is; ``None``: it is removed where the data show it. The same for all measurements.
+    record_s
+        Length of the records under a Hann window, s; ``None``: 1 over the spacing of the frequencies.
     """
 
     frequency_hz: ArrayLike
@@ -98,6 +111,8 @@ class Measurement:
     scale: float | Literal["unknown"] = 1.0
     delay_s: float | Literal["unknown"] = 0.0
     decay_per_s: float = 0.0
+    window: Literal["hann", "none"] | None = None
+    record_s: float | None = None
 
     def __post_init__(self) -> None:
         _frfit.check_measurement("measurement", _plain(self, "measurement"))
@@ -112,7 +127,7 @@ class Measurement:
         elif self.coherence is not None:
             averages = "" if self.averages is None else f" of {self.averages} averages"
             parts.append(f"coherence {np.median(np.asarray(self.coherence)):.4g} (median){averages}")
-        for key, default in (("scale", 1.0), ("delay_s", 0.0), ("decay_per_s", 0.0)):
+        for key, default in MEASUREMENT_KEYS:
             if (value := getattr(self, key)) != default:
                 parts.append(f"{key} {value}")
         sense = "-" if sign(self.sign, "sign") < 0 else "+"
@@ -130,6 +145,8 @@ class Measurement:
         scale: float | Literal["unknown"] = 1.0,
         delay_s: float | Literal["unknown"] = 0.0,
         decay_per_s: float | None = None,
+        window: Literal["hann", "none"] | None = None,
+        record_s: float | None = None,
     ) -> list[Measurement]:
         """Measurements of a universal file, in the order of ``dofs``: values and noise are those that a case file gets.
 
@@ -163,6 +180,8 @@ class Measurement:
                     scale=scale,
                     delay_s=delay_s,
                     decay_per_s=_decay_of(found, decay, path),
+                    window=window,
+                    record_s=record_s,
                 )
             )
         return measured
@@ -208,6 +227,8 @@ def _plain(one: Measurement, name: str) -> SimpleNamespace:
         scale=known(one.scale, "scale"),
         delay_s=known(one.delay_s, "delay_s"),
         decay_per_s=number(one.decay_per_s, below("decay_per_s")),
+        window=None if one.window is None else one_of(one.window, below("window"), ("hann", "none")),
+        record_s=optional_number(one.record_s, below("record_s")),
     )
 
 

@@ -168,6 +168,7 @@ class MeasuredFrf:
                 sign=senses[k],
                 std=None if self.std is None else self.std[k, inside],
                 decay_per_s=self.decay_per_s,
+                window="none",
             )
             for k, at in enumerate(listed)
         ]

@@ -48,7 +48,11 @@ fn noise(results: &Results) -> String {
         ),
         _ => write!(html, " The fit was not tested against it: {}.", verdict::untested(results)),
     };
-    html + "</p>\n"
+    html += "</p>\n";
+    if let Some(window) = Some(summary.word("/window/text")).filter(|text| !text.is_empty()) {
+        let _ = writeln!(html, "<p>Window of the measurement: {}.</p>", escape(window));
+    }
+    html
 }
 
 /// A row for each sensor.

@@ -9,6 +9,7 @@ use frfit::material::Law;
 use frfit::model::{FactorStd, Role};
 use frfit::quantity::Quantity;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// A value and where it is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -176,6 +177,31 @@ pub struct MeasurementEntry {
     pub averages: Option<Located<i64>>,
     /// The decay rate α of an exponential window e^{−αt} on force and response, 1/s; `None`: as the file says.
     pub decay_per_s: Option<Located<f64>>,
+    /// The window of random excitation; `None`: as the values show it.
+    pub window: Option<Located<RandomWindow>>,
+    /// The length of the records under it, s; `None`: 1 over the spacing of the lines.
+    pub record_s: Option<f64>,
+}
+
+/// `window` of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RandomWindow {
+    /// A Hann window, which leaks into neighbouring lines.
+    Hann,
+    /// None, or nothing that leaks: periodic or transient excitation.
+    None,
+}
+
+impl FromStr for RandomWindow {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        match word {
+            "hann" => Ok(Self::Hann),
+            "none" => Ok(Self::None),
+            _ => Err("\"hann\" or \"none\" (an exponential window is decay_per_s)".into()),
+        }
+    }
 }
 
 /// `scale` or `delay_s` of a measurement.

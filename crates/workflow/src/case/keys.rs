@@ -502,6 +502,18 @@ pub(super) static MEASUREMENT: Section = Section {
             "the value in the file, or 0",
             "α = 1/τ of an exponential window e^(−αt) on force and response. frfit evaluates the model at ω − iα. The same for all measurements.",
         ),
+        key(
+            "window",
+            "\"hann\" or \"none\"",
+            "\"hann\" where the data show it",
+            "Window of random excitation. A Hann window lowers and widens narrow resonances; frfit removes that. The same for all measurements.",
+        ),
+        key(
+            "record_s",
+            "number above 0, s",
+            "1 over the spacing of the lines",
+            "Length of the records under a Hann window.",
+        ),
     ],
     examples: &[
         "[[measurement]]
@@ -521,6 +533,8 @@ row = 97
 quantity = \"mobility\"
 scale = \"unknown\"
 delay_s = \"unknown\"
+window = \"hann\"
+record_s = 1.6
 ",
     ],
 };

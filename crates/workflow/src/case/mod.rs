@@ -15,8 +15,8 @@ mod snippet;
 pub(crate) use edited::{Edit, edited};
 pub use entries::{
     AtValues, AttachedEntry, Calibration, CaseFile, CoarserMeshEntry, Exclusion, FactorEntry, IdentifyEntry,
-    LoadEntry, Located, MatrixEntry, MeasurementEntry, MumpsEntry, RespondEntry, SolverEntry, Spot,
-    UnknownEntry,
+    LoadEntry, Located, MatrixEntry, MeasurementEntry, MumpsEntry, RandomWindow, RespondEntry, SolverEntry,
+    Spot, UnknownEntry,
 };
 pub(crate) use identify::variation;
 pub(crate) use launcher::DEFAULT as DEFAULT_LAUNCH;

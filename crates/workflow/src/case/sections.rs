@@ -2,7 +2,7 @@
 
 use super::entries::{
     AtValues, AttachedEntry, Calibration, CoarserMeshEntry, FactorEntry, LoadEntry, Located, MatrixEntry,
-    MeasurementEntry, MumpsEntry, RespondEntry, SolverEntry, Spot,
+    MeasurementEntry, MumpsEntry, RandomWindow, RespondEntry, SolverEntry, Spot,
 };
 use super::field::{Field, Table};
 use super::keys;
@@ -412,6 +412,8 @@ pub(super) fn measurement(table: &Table<'_>) -> Result<MeasurementEntry, InputEr
             .transpose()?,
         delay_s: table.find("delay_s").map(|field| calibration(&field, DELAY, |_| true)).transpose()?,
         decay_per_s: table.find("decay_per_s").map(|field| decay(&field)).transpose()?,
+        window: table.find("window").map(|field| field.word(str::parse::<RandomWindow>)).transpose()?,
+        record_s: table.find("record_s").map(|field| record(&field)).transpose()?,
     })
 }
 
@@ -441,6 +443,12 @@ fn decay(field: &Field<'_>) -> Result<Located<f64>, InputError> {
         Some(value) => Ok(Located { value, place: field.place.clone() }),
         None => Err(field.refuse("a finite number of 1/s that is not negative")),
     }
+}
+
+/// The length of records.
+fn record(field: &Field<'_>) -> Result<f64, InputError> {
+    let positive = field.as_number().filter(|value| *value > 0.0);
+    positive.ok_or_else(|| field.refuse("a number of seconds above 0"))
 }
 
 /// Names of columns.

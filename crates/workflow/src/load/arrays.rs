@@ -10,8 +10,8 @@ use super::options::{chosen, options};
 use super::sensitivities::SensitivitiesCase;
 use super::unknowns::{known_have_std, unknowns};
 use crate::case::{
-    Exclusion, IdentifyEntry, Located, UnknownEntry, are_powers, check_values, checked_band, expected_powers,
-    variation,
+    Exclusion, IdentifyEntry, Located, RandomWindow, UnknownEntry, are_powers, check_values, checked_band,
+    expected_powers, variation,
 };
 use crate::error::{InputError, Place};
 use crate::units::UnitSystem;
@@ -43,6 +43,10 @@ pub struct MeasuredFrf {
     pub delay_s: Option<f64>,
     /// Over how many records its coherence was averaged, where that is known.
     pub averages: Option<usize>,
+    /// The window of random excitation; `None`: as the values show it.
+    pub window: Option<RandomWindow>,
+    /// The length of the records under it, s; `None`: 1 over the spacing of the lines.
+    pub record_s: Option<f64>,
 }
 
 impl MeasuredFrf {
@@ -66,6 +70,10 @@ impl MeasuredFrf {
         if !(decay_per_s.is_finite() && decay_per_s >= 0.0) {
             let expected = "a finite number of 1/s that is not negative";
             return Err(InputError::at(&place.below("decay_per_s"), expected, decay_per_s.to_string()));
+        }
+        if let Some(record_s) = self.record_s.filter(|record_s| !(record_s.is_finite() && *record_s > 0.0)) {
+            let expected = "a number of seconds above 0";
+            return Err(InputError::at(&place.below("record_s"), expected, record_s.to_string()));
         }
         if self.averages == Some(0) {
             return Err(InputError::at(&place.below("averages"), "1 or more", "0"));
@@ -353,9 +361,11 @@ fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measuremen
     let info =
         SensorInfo { label: row(measured.sensor.row), quantity: measured.quantity, file: None::<PathBuf> };
     let file = NamedFile::closed_at(Path::new(&name), argument("measurements"));
-    let MeasuredFrf { sensor, frf, averages, .. } = measured;
+    let MeasuredFrf { sensor, frf, averages, window, record_s, .. } = measured;
     let decay = Some(Decay { per_s: frf.decay_per_s.unwrap_or(0.0), place: place.below("decay_per_s") });
-    Ok(Measurement { sensor, info, curve: Some(Curve { frf, scale, delay_s, averages, file }), decay })
+    let window = window.map(|value| Located { value, place: place.below("window") });
+    let curve = Curve { frf, scale, delay_s, averages, window, record_s, file };
+    Ok(Measurement { sensor, info, curve: Some(curve), decay })
 }
 
 /// What the readers of files make sure of.

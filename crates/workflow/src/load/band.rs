@@ -1,5 +1,6 @@
 //! The frequencies of a band, and what was measured there, as receptance.
 
+use super::leakage::{HannWindow, leakage};
 use super::measurement::{Curve, Measurement};
 use super::overrides::Overrides;
 use crate::case::{CaseFile, RespondEntry, checked_band};
@@ -36,6 +37,8 @@ pub(super) struct Band {
     /// `[frequency][sensor]`, receptance.
     pub(super) measured: Vec<Vec<c64>>,
     pub(super) noise: MeasuredNoise,
+    /// The Hann window on what was measured; `None` without one.
+    pub(super) hann: Option<HannWindow>,
 }
 
 /// The frequencies of a curve inside a band, both ends included.
@@ -89,7 +92,7 @@ pub(super) fn unmeasured(respond: Option<&RespondEntry>, [low, high]: [f64; 2], 
         frequency_hz = linear_hz(low, high, UNMEASURED_FREQUENCIES);
     }
     let measured = vec![vec![c64::new(1.0, 0.0); sensors]; frequency_hz.len()];
-    Band { frequency_hz, not_common: 0, measured, noise: MeasuredNoise::Unknown }
+    Band { frequency_hz, not_common: 0, measured, noise: MeasuredNoise::Unknown, hann: None }
 }
 
 /// All measurements at the frequencies of the band that all of them have; `decay_per_s` is that of their window.
@@ -104,7 +107,7 @@ pub(super) fn band(
 ) -> Result<Band, InputError> {
     let Some(first) = measurements.first().and_then(|first| first.curve.as_ref()) else {
         let (frequency_hz, measured, noise) = (Vec::new(), Vec::new(), MeasuredNoise::Unknown);
-        return Ok(Band { frequency_hz, not_common: 0, measured, noise });
+        return Ok(Band { frequency_hz, not_common: 0, measured, noise, hann: None });
     };
     let of_first = frequencies(first, band_hz, place)?;
     let curves = || measurements.iter().filter_map(|measurement| measurement.curve.as_ref());
@@ -116,6 +119,9 @@ pub(super) fn band(
         return Err(none_common(curves(), first, &of_first));
     }
     let not_common = of_first.len() - frequency_hz.len();
+    let leakage = leakage(&curves().collect::<Vec<_>>(), decay_per_s, band_hz)?;
+    let leaked =
+        |f: f64, sensor: usize| leakage.as_ref().map_or((c64::default(), 0.0), |all| all.at(f, sensor));
     let mut measured: Vec<Vec<c64>> = vec![Vec::new(); frequency_hz.len()];
     // `[sensor][frequency]`, of the receptance.
     let (mut known, mut relative) = (Vec::new(), Vec::new());
@@ -128,7 +134,7 @@ pub(super) fn band(
         for ((row, &f), values) in rows().zip(&frequency_hz).zip(&mut measured) {
             // A late channel has the phase e^{-iωτ}; what a window makes of its delay, e^{-ατ}, is part of the scale.
             let channel = c64::from_polar(curve.scale.abs(), omega_rad_s(f) * curve.delay_s);
-            let response = curve.scale.signum() * channel * frf.response[row];
+            let response = curve.scale.signum() * channel * (frf.response[row] - leaked(f, sensor).0);
             let receptance = response / quantity.over_receptance_windowed(f, decay_per_s);
             if !receptance.is_finite() {
                 let expected = format!("a band in which {quantity} can be converted to receptance");
@@ -139,15 +145,17 @@ pub(super) fn band(
         let receptance_std = |std: &Vec<f64>| -> Vec<f64> {
             let over_receptance = |f: f64| quantity.over_receptance_windowed(f, decay_per_s).norm();
             let rows = rows().zip(&frequency_hz);
-            rows.map(|(row, &f)| std[row] * curve.scale.abs() / over_receptance(f)).collect()
+            let of_line = |(row, &f): (usize, &f64)| {
+                std[row].hypot(leaked(f, sensor).1) * curve.scale.abs() / over_receptance(f)
+            };
+            rows.map(of_line).collect()
         };
         let relative_std = |coherence: &Vec<f64>| {
             let each = frf.response.iter().zip(coherence);
             each.map(|(&h, &gamma)| std_of(relative_variance(h, within(gamma)))).collect::<Vec<f64>>()
         };
         relative.push(frf.coherence.as_ref().map(relative_std).as_ref().map(receptance_std));
-        let given = frf.std.as_ref().map(receptance_std);
-        known.push(given.or_else(|| by_averages(curve).as_ref().map(receptance_std)));
+        known.push(raw_std(curve).as_ref().map(receptance_std));
     }
     let by_frequency = |columns: Vec<Option<Vec<f64>>>| -> Option<Vec<Vec<f64>>> {
         let columns: Vec<Vec<f64>> = columns.into_iter().collect::<Option<_>>()?;
@@ -158,7 +166,12 @@ pub(super) fn band(
         (None, Some(std)) => MeasuredNoise::Relative(std),
         (None, None) => MeasuredNoise::Unknown,
     };
-    Ok(Band { frequency_hz, not_common, measured, noise })
+    Ok(Band { frequency_hz, not_common, measured, noise, hann: leakage.map(|leakage| leakage.window) })
+}
+
+/// √E|δH|² of the complex values of a curve: given, or by its coherence and averages.
+pub(super) fn raw_std(curve: &Curve) -> Option<Vec<f64>> {
+    curve.frf.std.clone().or_else(|| by_averages(curve))
 }
 
 /// √E|δH|² of the complex values of a curve from their coherence and the number of averages, B-6 for both parts together.
@@ -190,7 +203,7 @@ fn none_common<'c>(curves: impl Iterator<Item = &'c Curve>, first: &Curve, of_fi
 }
 
 /// Where a curve has a frequency, or the nearest that it has.
-fn row_of(curve: &Curve, frequency_hz: f64) -> Result<usize, Option<f64>> {
+pub(super) fn row_of(curve: &Curve, frequency_hz: f64) -> Result<usize, Option<f64>> {
     let all = &curve.frf.frequency_hz;
     let above = all.partition_point(|&f| f < frequency_hz);
     let nearest = (above.saturating_sub(1)..all.len().min(above + 1))

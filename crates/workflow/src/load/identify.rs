@@ -4,6 +4,7 @@ use super::band::{MeasuredNoise, band, unmeasured};
 use super::dimension::{PartOf, each_has_a_value};
 use super::factor::{covers, law};
 use super::files::Files;
+use super::leakage::HannWindow;
 use super::lines::unused;
 use super::measurement::Measurement;
 use super::options::{invalid, options, overridden, reduction_of_band};
@@ -42,6 +43,8 @@ pub struct IdentifyCase {
     pub channels: Vec<ChannelUnknowns>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
+    /// The Hann window on the receptances; `None` without one.
+    pub hann: Option<HannWindow>,
     /// When to look for what is wrong with the data.
     pub check: Check,
 }
@@ -206,6 +209,7 @@ pub(super) fn put_together(
         left_out,
         channels,
         noise: data.noise,
+        hann: data.hann,
         check: match (entry.check, single) {
             (false, _) => Check::Never,
             (true, true) => Check::First,

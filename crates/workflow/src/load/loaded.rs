@@ -2,6 +2,7 @@
 
 use super::files::InputFile;
 use super::identify::IdentifyCase;
+use super::leakage::HannWindow;
 use super::measurement::SensorInfo;
 use super::measurement::measurement_argument;
 use super::modes::ModesCase;
@@ -88,6 +89,12 @@ impl Case {
     pub fn with_modes_of_the_model(mut self, band_hz: [f64; 2]) -> Self {
         self.modes = Some(ModesCase::of_model(band_hz, &self.model));
         self
+    }
+
+    /// The Hann window on what was measured; `None` without one.
+    pub fn hann_window(&self) -> Option<&HannWindow> {
+        let of_modes = || self.modes.as_ref()?.measured.as_ref()?.hann.as_ref();
+        self.identify.as_ref().and_then(|identify| identify.hann.as_ref()).or_else(of_modes)
     }
 
     /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.

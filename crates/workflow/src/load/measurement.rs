@@ -3,7 +3,7 @@
 use super::dofs::Dofs;
 use super::files::{Files, NamedFile};
 use super::frf::{Choice, Frf};
-use crate::case::{Calibration, Located, MeasurementEntry, Spot};
+use crate::case::{Calibration, Located, MeasurementEntry, RandomWindow, Spot};
 use crate::error::{InputError, Place};
 use frfit::dof::DofName;
 use frfit::model::Sensor;
@@ -88,6 +88,10 @@ pub(super) struct Curve {
     pub(super) delay_s: f64,
     /// Over how many records its coherence was averaged, where the case says.
     pub(super) averages: Option<usize>,
+    /// The window of random excitation, where that is said.
+    pub(super) window: Option<Located<RandomWindow>>,
+    /// The length of the records under it, s, where that is said.
+    pub(super) record_s: Option<f64>,
     pub(super) file: NamedFile,
 }
 
@@ -170,7 +174,8 @@ fn curve(
         Some(Calibration::Unknown) | None => otherwise,
     };
     let (scale, delay_s) = (known(&entry.scale, 1.0), known(&entry.delay_s, 0.0));
-    Ok(Curve { frf, scale, delay_s, averages, file: file.closed() })
+    let (window, record_s) = (entry.window.clone(), entry.record_s);
+    Ok(Curve { frf, scale, delay_s, averages, window, record_s, file: file.closed() })
 }
 
 /// An element of the measurements' sequence.

@@ -1,9 +1,10 @@
 //! What the modal view takes of a case beside its model: a band, what was measured in it, and identified factors.
 
-use super::band::{MeasuredNoise, band, respond_hz};
+use super::band::{Band, MeasuredNoise, band, respond_hz};
 use super::dimension::PartOf;
 use super::files::{Files, NamedFile};
 use super::identify::IdentifyCase;
+use super::leakage::HannWindow;
 use super::measurement::Measurement;
 use super::overrides::Overrides;
 use super::table_of_unknown::table_of_unknown;
@@ -41,6 +42,8 @@ pub struct MeasuredBand {
     pub receptance: Vec<Vec<c64>>,
     /// How well they were measured.
     pub noise: MeasuredNoise,
+    /// The Hann window on them; `None` without one.
+    pub hann: Option<HannWindow>,
 }
 
 impl ModesCase {
@@ -55,8 +58,12 @@ impl ModesCase {
         let is_unknown =
             |term: usize| identify.unknowns.iter().any(|one| one.dependence.terms().any(|own| own == term));
         let (unknown_terms, has_unknown) = unknown_or_all(model, is_unknown);
-        let measured =
-            above_zero(identify.frequency_hz.clone(), identify.measured.clone(), identify.noise.clone());
+        let measured = above_zero(MeasuredBand {
+            frequency_hz: identify.frequency_hz.clone(),
+            receptance: identify.measured.clone(),
+            noise: identify.noise.clone(),
+            hann: identify.hann.clone(),
+        });
         Self {
             band_hz: identify.band_hz,
             unknown_terms,
@@ -84,7 +91,8 @@ pub(super) fn modes(
     let measured = match has_values {
         true => {
             let all = band(measurements, model.decay_per_s(), given.unwrap_or([0.0, f64::MAX]), &place)?;
-            Some(above_zero(all.frequency_hz, all.measured, all.noise))
+            let Band { frequency_hz, measured: receptance, noise, hann, .. } = all;
+            Some(above_zero(MeasuredBand { frequency_hz, receptance, noise, hann }))
         }
         false => None,
     };
@@ -122,7 +130,8 @@ fn unknown_or_all(model: &DynamicStiffness, is_unknown: impl Fn(usize) -> bool) 
 }
 
 /// A structure that nothing holds has no response at rest.
-fn above_zero(frequency_hz: Vec<f64>, receptance: Vec<Vec<c64>>, noise: MeasuredNoise) -> MeasuredBand {
+fn above_zero(band: MeasuredBand) -> MeasuredBand {
+    let MeasuredBand { frequency_hz, receptance, noise, hann } = band;
     let first = frequency_hz.partition_point(|&f| f <= 0.0);
     let noise = match noise {
         MeasuredNoise::Known(std) => MeasuredNoise::Known(std[first..].to_vec()),
@@ -133,6 +142,7 @@ fn above_zero(frequency_hz: Vec<f64>, receptance: Vec<Vec<c64>>, noise: Measured
         frequency_hz: frequency_hz[first..].to_vec(),
         receptance: receptance[first..].to_vec(),
         noise,
+        hann,
     }
 }
 

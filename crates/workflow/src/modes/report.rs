@@ -3,7 +3,7 @@
 use super::ModesRun;
 use super::run::MeasuredRun;
 use crate::load::Case;
-use crate::output::Words;
+use crate::output::{Words, window_text};
 use crate::terminal::short;
 
 /// A factor on the stiffness nearer to one than this is not worth a word.
@@ -32,6 +32,10 @@ pub(super) fn text(case: &Case, run: &ModesRun) -> Words {
     let error = run.model.modes.iter().map(|mode| mode.error).fold(0.0, f64::max);
     if error > MAX_POLE_ERROR {
         add(true, "reduction", format!("a pole of the model may be off by {error:.1e} of itself"));
+    }
+    if let Some(window) = case.hann_window() {
+        let (is_warning, text) = window_text(window);
+        add(is_warning, "window", text);
     }
     let has_unknown = case.modes.as_ref().is_some_and(|modes| modes.has_unknown);
     if let Some(measured) = &run.measured {

@@ -2,6 +2,7 @@
 
 use super::ModesRun;
 use crate::load::{Case, InputFile};
+use crate::output::window_json;
 use frfit::subspace::NaturalMode;
 use serde_json::{Value, json};
 
@@ -50,6 +51,7 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
         json!({
             "modes": modes.collect::<Vec<_>>(),
             "noise_level": measured.modes.level,
+            "window": window_json(case.hann_window()),
             "pairs": pairs.collect::<Vec<_>>(),
             "stiffness_factor": measured.pairing.stiffness_factor,
             "frac": by_sensor(&measured.frac),

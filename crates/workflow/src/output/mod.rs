@@ -17,6 +17,7 @@ mod response;
 mod staging;
 mod summary;
 mod target;
+mod window;
 mod words;
 
 pub use crate::case::snippet;
@@ -36,4 +37,6 @@ pub use reference::reference_csv;
 pub use response::{respond_csv, response_csv};
 pub use summary::summary_json;
 pub use target::{is_standard_output, is_stream};
+pub(crate) use window::window_json;
+pub use window::window_text;
 pub use words::Words;

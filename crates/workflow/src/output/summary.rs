@@ -2,7 +2,7 @@
 
 use super::assumptions::contradicted;
 use super::identifiability::{coordinate, not_identifiable};
-use super::{laws_json, smooth_json};
+use super::{laws_json, smooth_json, window_json};
 use crate::load::{Case, IdentifyCase, InputFile, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
@@ -43,6 +43,7 @@ pub fn summary_json(
         "inputs": InputFile::json(&case.inputs),
         "units": case.units.json(),
         "decay_per_s": case.model.decay_per_s(),
+        "window": window_json(case.hann_window()),
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {

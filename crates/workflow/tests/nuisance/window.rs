@@ -1,16 +1,18 @@
-//! The exponential window of an impact test, planted in mobility and accelerance.
+//! The exponential window of an impact test, planted in mobility and accelerance; and the Hann window of a random force.
 
-use super::planted::{DIM, TRUTH, folder, refusal, run, springs, table, worst};
+use super::planted::{DIM, TRUTH, folder, receptance, refusal, run, springs, table, worst};
 use frfit::c64;
 use frfit::frequency::linear_hz;
+use frfit::identify::{Line, Status};
 use frfit::material::Law;
 use frfit::model::{DynamicStiffness, Experiment, Role, Sensor, Term};
 use frfit::response::{FullModel, Response};
 use frfit_linalg::sparse::Triplets;
-use frfit_workflow::job::respond_case;
-use frfit_workflow::load::{Choice, Overrides, Purpose, load, load_frf};
-use std::f64::consts::TAU;
+use frfit_workflow::job::{IdentifyJob, respond_case};
+use frfit_workflow::load::{Choice, Overrides, Purpose, WindowSource, load, load_frf};
+use std::f64::consts::{PI, TAU};
 use std::fs;
+use tempfile::TempDir;
 
 const DECAY: f64 = 6.0;
 
@@ -139,5 +141,91 @@ fn a_response_of_a_windowed_case_is_what_would_be_measured() {
         for (there, value) in frf.response.iter().zip(values) {
             assert!((there - value).norm() < 1e-10 * value.norm());
         }
+    }
+}
+
+const HANN_RECORD_S: f64 = 2.0;
+
+/// Receptances of rows 6 and 8 (from 1) as H1 of a random force shows them through a Hann window: their mean over frequencies with |W|² as the weight.
+fn through_a_hann_window(frequency_hz: &[f64]) -> [Vec<c64>; 2] {
+    let offsets: Vec<f64> = (-48..=48).map(|k| (f64::from(k) + 0.5) / 12.0).collect();
+    let weight = |x: f64| ((PI * x).sin() / (PI * x * (1.0 - x * x))).powi(2);
+    let sum: f64 = offsets.iter().map(|&x| weight(x)).sum();
+    let mean = |f: &f64| {
+        let shifted: Vec<f64> = offsets.iter().map(|x| f + x / HANN_RECORD_S).collect();
+        let all = receptance(&[], &[5, 7], &shifted);
+        [0, 1].map(|m| offsets.iter().zip(&all).map(|(x, row)| weight(*x) / sum * row[m]).sum::<c64>())
+    };
+    let all: Vec<[c64; 2]> = frequency_hz.iter().map(mean).collect();
+    [0, 1].map(|m| all.iter().map(|values| values[m]).collect())
+}
+
+fn hann_folder(frequency_hz: &[f64], said: [&str; 2]) -> TempDir {
+    let tables = through_a_hann_window(frequency_hz).map(|values| table(frequency_hz, &values, Some(0.003)));
+    let one = |m: usize| {
+        format!(
+            "[[measurement]]\nfile = \"{m}.csv\"\nrow = {}\nquantity = \"receptance\"\n{}\n",
+            6 + 2 * m,
+            said[m]
+        )
+    };
+    folder(&tables, &format!("{}{}{SPRINGS}", one(0), one(1)))
+}
+
+/// Whether a Hann window is said or shown by the data, its leakage is removed: two lines between half-power points at the lowest mode, where the loss factor would
+/// be half as large again.
+#[test]
+fn the_leakage_of_a_hann_window_is_removed() {
+    let frequency_hz: Vec<f64> = (20..250).map(|k| f64::from(k) / HANN_RECORD_S).collect();
+    let farthest = |job: &IdentifyJob| {
+        let off = |line: &Line| {
+            let value = &line.values[0];
+            let std = value.uncertainty.as_ref().unwrap().loss_factor_std;
+            (line.status == Status::Ok)
+                .then(|| (value.loss_factor().unwrap() - TRUTH.im / TRUTH.re).abs() / std.unwrap())
+        };
+        job.run.found.lines.iter().filter_map(off).fold(0.0, f64::max)
+    };
+    let shown = run(&hann_folder(&frequency_hz, ["", ""])).unwrap();
+    let window = shown.case.hann_window().unwrap();
+    assert!(
+        window.source == WindowSource::Shown && window.nats > 100.0 && window.largest > 0.2,
+        "{window:?}"
+    );
+    assert_eq!((window.record_s, shown.summary["window"]["kind"].as_str()), (HANN_RECORD_S, Some("hann")));
+    assert!(shown.run.count(Status::Ok) > 150 && farthest(&shown) < 3.0, "{}", farthest(&shown));
+    let said = run(&hann_folder(&frequency_hz, ["window = \"hann\""; 2])).unwrap();
+    assert_eq!(said.run.found.lines, shown.run.found.lines);
+    let none = run(&hann_folder(&frequency_hz, ["window = \"none\""; 2])).unwrap();
+    assert!(none.case.hann_window().is_none());
+    assert!(farthest(&none) > 4.0, "{}", farthest(&none));
+}
+
+#[test]
+fn a_window_that_cannot_be_is_refused() {
+    // Lines that are no multiples of their spacing.
+    let frequency_hz = linear_hz(10.3, 60.0, 90);
+    let hann = "window = \"hann\"";
+    for (said, message) in [
+        (
+            ["window = \"hamming\"", ""],
+            "measurement.window: expected \"hann\" or \"none\" (an exponential window is decay_per_s), found \"hamming\"",
+        ),
+        (
+            [hann, ""],
+            "measurement.window: expected the window of all measurements to be the same, found another one",
+        ),
+        (
+            [hann, hann],
+            "measurement.window: expected record_s, because the frequencies are no whole multiples of their spacing, found none",
+        ),
+        (["record_s = 0.0", ""], "measurement.record_s: expected a number of seconds above 0, found 0.0"),
+        (
+            ["window = \"hann\"\ndecay_per_s = 6.0", "window = \"hann\"\ndecay_per_s = 6.0"],
+            "measurement.window: expected one of window = \"hann\" and decay_per_s, found both",
+        ),
+    ] {
+        let found = refusal(&hann_folder(&frequency_hz, said));
+        assert!(found.contains(message), "{found}");
     }
 }

@@ -19,10 +19,10 @@ use crate::identify::model_errors::{
 use crate::identify::noise::{levels, without};
 use crate::identify::options::{ModelErrors, Options};
 use crate::identify::outcome::{Line, Status};
-use crate::identify::thinned::thinned;
 use crate::median::median;
 use crate::model::ModelAt;
 use crate::subspace::{Corrected, ModalErrors, Modes, Point, Projection};
+use crate::thinned::thinned;
 
 /// What is found when the errors of the model are estimated and corrected for; the same where a right model explains the band as well. Scales and delays of
 /// channels that are unknown are estimated with them, as corrections of those that the band has.

@@ -8,9 +8,9 @@ use crate::frfs::Noise;
 use crate::identify::context::Context;
 use crate::identify::goodness_of_fit::MIN_DOUBTFUL_MISFIT;
 use crate::identify::noise::{freedom, level_of, without};
-use crate::identify::thinned::thinned;
 use crate::response::{FullModel, Response, Work};
 use crate::subspace::Projection;
+use crate::thinned::thinned;
 
 /// Frequencies at which it is tried: the median of their χ² is known to a third, and a sensor at fault changes it by a factor of ten.
 pub(in crate::identify) const OUTLIER_FREQUENCIES: usize = 24;

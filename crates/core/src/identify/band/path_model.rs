@@ -3,9 +3,9 @@
 use super::candidates::Evaluated;
 use super::neighbourhoods::{TRAINED_TOL, is_certain};
 use crate::c64;
-use crate::identify::thinned::thinned;
 use crate::model::ModelAt;
 use crate::subspace::{Assessment, Point, Projection};
+use crate::thinned::thinned;
 use frfit_linalg::dense::NoConvergence;
 use std::borrow::Cow;
 

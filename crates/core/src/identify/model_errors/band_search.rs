@@ -10,8 +10,8 @@ use super::mesh::{BetweenMeshes, Coarser};
 use super::sizes::KnownSizes;
 use crate::c64;
 use crate::for_each::ForEach;
-use crate::identify::thinned::thinned;
 use crate::subspace::{Modes, Point, Projection};
+use crate::thinned::thinned;
 use std::f64::consts::TAU;
 
 /// Modes up to this many times the highest frequency, and so many at most.

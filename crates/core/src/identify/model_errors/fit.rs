@@ -8,7 +8,7 @@ use super::linearised::Linearised;
 use super::measured::{MAX_REST, MIN_NOISE_OVER_RESPONSE, Measured, NOISE_CHI_SQUARED_STD, is_chance};
 use super::sizes::Sizes;
 use super::whitening::{Rest, Whitening};
-use crate::identify::thinned::thinned;
+use crate::thinned::thinned;
 use frfit_linalg::dense::Cholesky;
 
 /// A fit at a level of the noise.

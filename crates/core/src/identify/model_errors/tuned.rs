@@ -8,10 +8,10 @@
 use super::fitting::{Fitting, Place};
 use crate::c64;
 use crate::for_each::map;
-use crate::identify::thinned::thinned;
 use crate::rational::{Poles, RationalResponse};
 use crate::response::Response;
 use crate::subspace::{AlongMode, Point, Projection};
+use crate::thinned::thinned;
 
 /// By how much an unknown as a whole is changed, in its logarithm, and in how many steps to either side.
 const SCALE_RANGE: f64 = 0.3;

@@ -8,13 +8,13 @@ use crate::identify::band::{
 };
 use crate::identify::context::{Context, Stage};
 use crate::identify::problem::Problem;
-use crate::identify::thinned::thinned;
 use crate::identify::unknown::{Composite, Unknown};
 use crate::material::{OutsideTable, loss_factor};
 use crate::model::ModelAt;
 use crate::response::Work;
 use crate::subspace::{Assessment, Corrected, Local, ModalErrors, Modes};
 use crate::subspace::{Point, Projection, Subspace, TrainOptions};
+use crate::thinned::thinned;
 use frfit_linalg::solve::Breakdown;
 use std::sync::Arc;
 

@@ -10,8 +10,8 @@ use crate::identify::dead_channel::dead_channels;
 use crate::identify::goodness_of_fit::SensorFit;
 use crate::identify::noise::{level_of, without};
 use crate::identify::outcome::Line;
-use crate::identify::thinned::thinned;
 use crate::identify::unknown::Unknown;
+use crate::thinned::thinned;
 
 /// Where no standard deviation is given: one per cent of the response is usual noise, and no reason to doubt a sensor.
 const USUAL_NOISE_OVER_RESPONSE: f64 = 1e-2;

@@ -10,12 +10,12 @@ use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::{Fit, MAX_TRAINING_ROUNDS, nearest};
 use crate::identify::context::Stage;
-use crate::identify::thinned::thinned;
 use crate::identify::unknown::Dependence;
 use crate::identify::unknown::Unknown;
 use crate::laws::{Datum, Parametrization};
 use crate::least_squares::{Minimum, Search, descend};
 use crate::subspace::Projection;
+use crate::thinned::thinned;
 
 /// Frequencies at most at which logarithms are compared.
 const LOG_RESPONSE_FREQUENCIES: usize = 160;

@@ -11,9 +11,9 @@ use crate::c64;
 use crate::for_each::map;
 use crate::identify::band::by_shape;
 use crate::identify::channel::{Channel, ChannelUnknowns};
-use crate::identify::thinned::thinned;
 use crate::identify::unknown::Variation;
 use crate::least_squares::{Search, minimise};
+use crate::thinned::thinned;
 
 /// Frequencies that say which points of the box are compared where logarithms are.
 const RANKING_FREQUENCIES: usize = 40;
