@@ -8,7 +8,7 @@ use frfit::model::FactorPart;
 use frfit_workflow::check::findings_text;
 use frfit_workflow::job::IdentifyJob;
 use frfit_workflow::load::{IdentifyCase, MeasuredNoise};
-use frfit_workflow::output::{Words, contradicted, laws_text, not_identifiable, window_text};
+use frfit_workflow::output::{Words, contradicted, corrections_text, laws_text, not_identifiable};
 use frfit_workflow::terminal::{listed, short};
 use serde_json::Value;
 use std::path::Path;
@@ -101,9 +101,8 @@ fn statuses(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     if decay_per_s > 0.0 {
         text.say("window", &format!("decay_per_s = {decay_per_s}, taken into the model"));
     }
-    if let Some(window) = job.case.hann_window() {
-        let (is_warning, sentence) = window_text(window);
-        text.add(is_warning, "window", &sentence);
+    for (is_warning, label, sentence) in corrections_text(job.case.corrections()) {
+        text.add(is_warning, label, &sentence);
     }
 }
 

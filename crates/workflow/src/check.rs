@@ -4,7 +4,7 @@ use crate::error::{InputError, Place};
 use crate::job_error::JobError;
 use crate::load::{Case, IdentifyCase, Overrides, Purpose, load};
 use crate::memory::fit_identify;
-use crate::output::{Words, window_json, window_text};
+use crate::output::{Words, corrections_json, corrections_text};
 use crate::run::{Used, in_parallel, problem_of, reduced_of};
 use crate::units::UnitSystem;
 use frfit::diagnostics::{
@@ -43,9 +43,11 @@ pub struct CheckJob {
 impl CheckJob {
     /// What `frfit check --json` prints.
     pub fn json(&self) -> Value {
+        let [window, shifts] = corrections_json(self.case.corrections());
         json!({
             "title": self.case.title,
-            "window": window_json(self.case.hann_window()),
+            "window": window,
+            "frequency_shifts": shifts,
             "findings": findings_json(&self.case, &self.diagnosis),
             "other_explanations": others_json(&self.case, &self.diagnosis),
             "misfit": self.diagnosis.misfit,
@@ -457,9 +459,8 @@ pub fn check_text(job: &CheckJob) -> Words {
     let CheckJob { case, diagnosis } = job;
     let mut words = Words::default();
     words.say(&format!("{}: {} frequencies of the band looked at\n", case.title, diagnosis.frequencies));
-    if let Some(window) = case.hann_window() {
-        let (is_warning, text) = window_text(window);
-        words.add(is_warning, &format!("  {:<18}{text}\n", "window"));
+    for (is_warning, label, text) in corrections_text(case.corrections()) {
+        words.add(is_warning, &format!("  {label:<18}{text}\n"));
     }
     words.warn(&findings_text(case, diagnosis));
     match (diagnosis.not_judged, diagnosis.misfit) {

@@ -30,8 +30,9 @@ const MAX_SENSORS: usize = 6;
 /// The largest order of the stabilisation diagram of a piece.
 const MAX_ORDER: usize = 40;
 
-/// Where so much speaks against a window, no further piece is asked.
+/// Where so much speaks against a window, no further piece is asked; nor after so many pieces where nothing speaks for one.
 const AGAINST_NATS: f64 = -100.0;
+pub(super) const UNDECIDED_PIECES: usize = 6;
 
 /// What the FRF (H1) of a random force has more with a Hann window on records of length T, `[frequency][sensor]`:
 /// $$ \sum_r R_{mr} \Big(g(i\omega - s_r) - \frac{1}{i\omega - s_r}\Big) + \bar R_{mr} \Big(g(i\omega - \bar s_r) - \frac{1}{i\omega - \bar s_r}\Big) . $$
@@ -47,7 +48,7 @@ pub fn hann_leakage(
     record_s: f64,
     for_each: ForEach<'_>,
 ) -> Result<Vec<Vec<c64>>, NoConvergence> {
-    let (shown, all) = (Shown::of_some(frfs), Shown::of_all(frfs));
+    let (shown, all) = (Shown::of_some(frfs, 0.0), Shown::of_all(frfs, 0.0));
     let mut leakage = vec![vec![c64::default(); all.sensors()]; frfs.frequency_hz.len()];
     for piece in pieces(frfs.frequency_hz) {
         let Some([_, hann]) = shown.fitted_twice(&piece.lines, record_s, for_each)? else { continue };
@@ -80,9 +81,12 @@ pub fn hann_leakage(
 /// Where all resonances have many lines between their half-power points, a window changes nothing, and nothing speaks for or against it. Standard
 /// deviations have to be right: without them a window is often missed.
 pub fn hann_evidence(frfs: Frfs<'_>, record_s: f64, for_each: ForEach<'_>) -> Result<f64, NoConvergence> {
-    let shown = Shown::of_some(frfs);
+    let shown = Shown::of_some(frfs, 0.0);
     let mut nats = 0.0;
-    for piece in pieces(frfs.frequency_hz) {
+    for (k, piece) in pieces(frfs.frequency_hz).into_iter().enumerate() {
+        if k >= UNDECIDED_PIECES && nats < 0.0 {
+            break;
+        }
         let Some([plain, hann]) = shown.fitted_twice(&piece.lines, record_s, for_each)? else { continue };
         nats += 0.5 * (plain.information - hann.information);
         if nats < AGAINST_NATS {
@@ -94,15 +98,15 @@ pub fn hann_evidence(frfs: Frfs<'_>, record_s: f64, for_each: ForEach<'_>) -> Re
 
 /// A part of the band.
 #[derive(Debug, PartialEq)]
-struct Piece {
+pub(super) struct Piece {
     /// What is fitted.
-    lines: Range<usize>,
+    pub(super) lines: Range<usize>,
     /// The lines that this piece knows best: each line is of one piece.
-    own: Range<usize>,
+    pub(super) own: Range<usize>,
 }
 
 /// Pieces of the band, one after the other; lines at 0 Hz are in none.
-fn pieces(frequency_hz: &[f64]) -> Vec<Piece> {
+pub(super) fn pieces(frequency_hz: &[f64]) -> Vec<Piece> {
     let count = frequency_hz.len();
     let mut from = frequency_hz.iter().take_while(|&&f| f <= 0.0).count();
     let mut own = from;
@@ -119,29 +123,30 @@ fn pieces(frequency_hz: &[f64]) -> Vec<Piece> {
 }
 
 /// Responses of sensors, and 1/σ.
-struct Shown<'a> {
+pub(super) struct Shown<'a> {
     frequency_hz: &'a [f64],
     responses: Vec<Vec<c64>>,
     weights: Vec<Vec<f64>>,
     noise_known: bool,
+    decay_per_s: f64,
 }
 
 /// Poles, and −2 ln of how likely they make the responses.
-struct Explained {
+pub(super) struct Explained {
     information: f64,
-    fit: Fit,
+    pub(super) fit: Fit,
 }
 
 impl<'a> Shown<'a> {
-    fn of_all(frfs: Frfs<'a>) -> Self {
-        Self::of(frfs, usize::MAX)
+    pub(super) fn of_all(frfs: Frfs<'a>, decay_per_s: f64) -> Self {
+        Self::of(frfs, decay_per_s, usize::MAX)
     }
 
-    fn of_some(frfs: Frfs<'a>) -> Self {
-        Self::of(frfs, MAX_SENSORS)
+    pub(super) fn of_some(frfs: Frfs<'a>, decay_per_s: f64) -> Self {
+        Self::of(frfs, decay_per_s, MAX_SENSORS)
     }
 
-    fn of(frfs: Frfs<'a>, sensors: usize) -> Self {
+    fn of(frfs: Frfs<'a>, decay_per_s: f64, sensors: usize) -> Self {
         let std = standard_deviations(frfs.frequency_hz, frfs.receptance, frfs.noise);
         let responses = frfs.receptance.iter().map(|row| thinned(row, sensors).copied().collect());
         let weights = std.iter().map(|row| thinned(row, sensors).map(|std| std.recip()).collect());
@@ -150,41 +155,58 @@ impl<'a> Shown<'a> {
             responses: responses.collect(),
             weights: weights.collect(),
             noise_known: frfs.noise.is_known(),
+            decay_per_s,
         }
     }
 
-    fn sensors(&self) -> usize {
+    pub(super) fn sensors(&self) -> usize {
         self.responses.first().map_or(0, Vec::len)
     }
 
-    fn measured(&self, lines: &Range<usize>, hann_record_s: Option<f64>) -> Measured<'_> {
+    pub(super) fn measured(&self, lines: &Range<usize>, hann_record_s: Option<f64>) -> Measured<'_> {
         Measured {
             frequency_hz: &self.frequency_hz[lines.clone()],
             responses: &self.responses[lines.clone()],
             weights: &self.weights[lines.clone()],
-            decay_per_s: 0.0,
+            decay_per_s: self.decay_per_s,
             hann_record_s,
         }
     }
 
-    /// The lines as resonances, and through a Hann window; `None` where they show no resonance.
+    /// The lines as resonances; `None` where they show none.
+    pub(super) fn resonances(
+        &self,
+        lines: &Range<usize>,
+        for_each: ForEach<'_>,
+    ) -> Result<Option<Explained>, NoConvergence> {
+        let diagram = stabilisation(&self.measured(lines, None), MAX_ORDER, for_each)?;
+        Ok(self.explained(lines, None, &candidates(&diagram), for_each))
+    }
+
+    /// The same, and the lines through a Hann window.
     fn fitted_twice(
         &self,
         lines: &Range<usize>,
         record_s: f64,
         for_each: ForEach<'_>,
     ) -> Result<Option<[Explained; 2]>, NoConvergence> {
-        let explained = |hann_record_s: Option<f64>, poles: &[Vec<c64>; 2]| {
-            let measured = self.measured(lines, hann_record_s);
-            let search = PoleSearch { measured, noise_known: self.noise_known, for_each };
-            let (fit, fitted) = search.selected(poles)?;
-            let information = search.information(&fit, &fitted);
-            Some(Explained { information, fit }).filter(|found| !found.fit.poles.is_empty())
-        };
-        let diagram = stabilisation(&self.measured(lines, None), MAX_ORDER, for_each)?;
-        let Some(plain) = explained(None, &candidates(&diagram)) else { return Ok(None) };
-        let hann = explained(Some(record_s), &[plain.fit.poles.clone(), Vec::new()]);
-        Ok(hann.map(|hann| [plain, hann]))
+        let Some(plain) = self.resonances(lines, for_each)? else { return Ok(None) };
+        let poles = [plain.fit.poles.clone(), Vec::new()];
+        Ok(self.explained(lines, Some(record_s), &poles, for_each).map(|hann| [plain, hann]))
+    }
+
+    fn explained(
+        &self,
+        lines: &Range<usize>,
+        hann_record_s: Option<f64>,
+        poles: &[Vec<c64>; 2],
+        for_each: ForEach<'_>,
+    ) -> Option<Explained> {
+        let measured = self.measured(lines, hann_record_s);
+        let search = PoleSearch { measured, noise_known: self.noise_known, for_each };
+        let (fit, fitted) = search.selected(poles)?;
+        let information = search.information(&fit, &fitted);
+        Some(Explained { information, fit }).filter(|found| !found.fit.poles.is_empty())
     }
 }
 

@@ -13,6 +13,7 @@
 //! The modes of a model are those of its reduced model: [`Subspace::natural_modes`](crate::subspace::Subspace::natural_modes).
 
 mod correlation;
+mod frequency_shifts;
 mod hann;
 mod leakage;
 mod left_over;
@@ -23,6 +24,7 @@ mod stabilisation;
 mod stiffness_factors;
 
 pub use correlation::{assurance, coordinate_assurance, scale_assurance};
+pub use frequency_shifts::{FrequencyShifts, frequency_shifts};
 pub use leakage::{HANN_LEAKAGE_RSTD, hann_evidence, hann_leakage};
 pub use measured_modes::{MeasuredMode, MeasuredModes, PoleOptions, measured_modes};
 pub use pairing::{Pair, PairedShape, Pairing, paired};

@@ -185,6 +185,32 @@ impl Measured<'_> {
         Some((column(own).collect(), (0..own).flat_map(column).collect()))
     }
 
+    /// What everything linear leaves of a sensor's slopes by relative shifts of its poles, and of its responses with these shifts taken out to first order:
+    /// columns, the responses last. And its residues.
+    pub(super) fn shift_slopes(
+        &self,
+        m: usize,
+        fit: &Fit,
+        shifts: &[f64],
+    ) -> Option<(Vec<Vec<f64>>, Vec<c64>)> {
+        let mut functions = self.functions(fit);
+        let (count, modes) = (functions.len(), fit.poles.len());
+        let residues = self.eliminated(m, &functions)?.residues(modes);
+        for (&pole, residue) in fit.poles.iter().zip(&residues) {
+            let turned = residue * c64::I * pole.norm();
+            let slope = |s: c64| turned / (s - pole).powi(2) + turned.conj() / (s - pole.conj()).powi(2);
+            functions.push((0..self.frequency_hz.len()).map(|k| slope(self.s(k))).collect());
+        }
+        let triangle = self.triangle(m, &functions)?;
+        let mut left: Vec<Vec<f64>> =
+            (count..=count + modes).map(|j| triangle.column(j)[count..].to_vec()).collect();
+        let (responses, slopes) = left.split_last_mut()?;
+        for (slope, shift) in slopes.iter().zip(shifts) {
+            responses.iter_mut().zip(slope).for_each(|(response, slope)| *response += slope * shift);
+        }
+        Some((left, residues))
+    }
+
     /// The poles that fit best, from these on.
     pub(super) fn refined(&self, fit: &Fit, for_each: ForEach<'_>) -> Option<Fit> {
         let at = |theta: &[f64]| Fit { poles: poles(theta), degree: fit.degree };
@@ -205,10 +231,8 @@ impl Measured<'_> {
         let each = map(for_each, self.sensors(), |m| self.eliminated(m, &functions))
             .into_iter()
             .collect::<Option<Vec<_>>>()?;
-        let residue =
-            |r: usize, own: &Eliminated| c64::new(own.coefficients[2 * r], own.coefficients[2 * r + 1]);
-        let residues =
-            (0..fit.poles.len()).map(|r| each.iter().map(|own| residue(r, own)).collect()).collect();
+        let of_sensors: Vec<Vec<c64>> = each.iter().map(|own| own.residues(fit.poles.len())).collect();
+        let residues = (0..fit.poles.len()).map(|r| of_sensors.iter().map(|own| own[r]).collect()).collect();
         let gain = |r: usize| each.iter().map(|own| own.gain(2 * r)).sum();
         let response = |own: &Eliminated| {
             let term = |k: usize, (c, function): (&f64, &Vec<c64>)| *c * function[k];
@@ -273,6 +297,11 @@ impl Triangle {
 }
 
 impl Eliminated {
+    /// Those of the first poles.
+    fn residues(&self, poles: usize) -> Vec<c64> {
+        self.coefficients[..2 * poles].chunks_exact(2).map(|pair| c64::new(pair[0], pair[1])).collect()
+    }
+
     /// Σ w²|h − Φc|².
     fn misfit(&self) -> f64 {
         self.triangle.entries[self.triangle.entries.len() - 1].powi(2)

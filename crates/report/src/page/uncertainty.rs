@@ -49,8 +49,10 @@ fn noise(results: &Results) -> String {
         _ => write!(html, " The fit was not tested against it: {}.", verdict::untested(results)),
     };
     html += "</p>\n";
-    if let Some(window) = Some(summary.word("/window/text")).filter(|text| !text.is_empty()) {
-        let _ = writeln!(html, "<p>Window of the measurement: {}.</p>", escape(window));
+    for (heading, path) in [("Window", "/window/text"), ("Sensors", "/frequency_shifts/text")] {
+        if let Some(text) = Some(summary.word(path)).filter(|text| !text.is_empty()) {
+            let _ = writeln!(html, "<p>{heading}: {}.</p>", escape(text));
+        }
     }
     html
 }

@@ -1,6 +1,6 @@
 //! The frequencies of a band, and what was measured there, as receptance.
 
-use super::leakage::{HannWindow, leakage};
+use super::corrections::{Corrections, corrected};
 use super::measurement::{Curve, Measurement};
 use super::overrides::Overrides;
 use crate::case::{CaseFile, RespondEntry, checked_band};
@@ -37,8 +37,8 @@ pub(super) struct Band {
     /// `[frequency][sensor]`, receptance.
     pub(super) measured: Vec<Vec<c64>>,
     pub(super) noise: MeasuredNoise,
-    /// The Hann window on what was measured; `None` without one.
-    pub(super) hann: Option<HannWindow>,
+    /// What was found in the measured values.
+    pub(super) corrections: Corrections,
 }
 
 /// The frequencies of a curve inside a band, both ends included.
@@ -92,7 +92,13 @@ pub(super) fn unmeasured(respond: Option<&RespondEntry>, [low, high]: [f64; 2], 
         frequency_hz = linear_hz(low, high, UNMEASURED_FREQUENCIES);
     }
     let measured = vec![vec![c64::new(1.0, 0.0); sensors]; frequency_hz.len()];
-    Band { frequency_hz, not_common: 0, measured, noise: MeasuredNoise::Unknown, hann: None }
+    Band {
+        frequency_hz,
+        not_common: 0,
+        measured,
+        noise: MeasuredNoise::Unknown,
+        corrections: Corrections::default(),
+    }
 }
 
 /// All measurements at the frequencies of the band that all of them have; `decay_per_s` is that of their window.
@@ -107,7 +113,13 @@ pub(super) fn band(
 ) -> Result<Band, InputError> {
     let Some(first) = measurements.first().and_then(|first| first.curve.as_ref()) else {
         let (frequency_hz, measured, noise) = (Vec::new(), Vec::new(), MeasuredNoise::Unknown);
-        return Ok(Band { frequency_hz, not_common: 0, measured, noise, hann: None });
+        return Ok(Band {
+            frequency_hz,
+            not_common: 0,
+            measured,
+            noise,
+            corrections: Corrections::default(),
+        });
     };
     let of_first = frequencies(first, band_hz, place)?;
     let curves = || measurements.iter().filter_map(|measurement| measurement.curve.as_ref());
@@ -119,9 +131,7 @@ pub(super) fn band(
         return Err(none_common(curves(), first, &of_first));
     }
     let not_common = of_first.len() - frequency_hz.len();
-    let leakage = leakage(&curves().collect::<Vec<_>>(), decay_per_s, band_hz)?;
-    let leaked =
-        |f: f64, sensor: usize| leakage.as_ref().map_or((c64::default(), 0.0), |all| all.at(f, sensor));
+    let corrected = corrected(&curves().collect::<Vec<_>>(), decay_per_s, band_hz)?;
     let mut measured: Vec<Vec<c64>> = vec![Vec::new(); frequency_hz.len()];
     // `[sensor][frequency]`, of the receptance.
     let (mut known, mut relative) = (Vec::new(), Vec::new());
@@ -134,7 +144,8 @@ pub(super) fn band(
         for ((row, &f), values) in rows().zip(&frequency_hz).zip(&mut measured) {
             // A late channel has the phase e^{-iωτ}; what a window makes of its delay, e^{-ατ}, is part of the scale.
             let channel = c64::from_polar(curve.scale.abs(), omega_rad_s(f) * curve.delay_s);
-            let response = curve.scale.signum() * channel * (frf.response[row] - leaked(f, sensor).0);
+            let response =
+                curve.scale.signum() * channel * (frf.response[row] - corrected.removed(f, sensor).0);
             let receptance = response / quantity.over_receptance_windowed(f, decay_per_s);
             if !receptance.is_finite() {
                 let expected = format!("a band in which {quantity} can be converted to receptance");
@@ -146,7 +157,7 @@ pub(super) fn band(
             let over_receptance = |f: f64| quantity.over_receptance_windowed(f, decay_per_s).norm();
             let rows = rows().zip(&frequency_hz);
             let of_line = |(row, &f): (usize, &f64)| {
-                std[row].hypot(leaked(f, sensor).1) * curve.scale.abs() / over_receptance(f)
+                std[row].hypot(corrected.removed(f, sensor).1) * curve.scale.abs() / over_receptance(f)
             };
             rows.map(of_line).collect()
         };
@@ -166,7 +177,7 @@ pub(super) fn band(
         (None, Some(std)) => MeasuredNoise::Relative(std),
         (None, None) => MeasuredNoise::Unknown,
     };
-    Ok(Band { frequency_hz, not_common, measured, noise, hann: leakage.map(|leakage| leakage.window) })
+    Ok(Band { frequency_hz, not_common, measured, noise, corrections: corrected.corrections })
 }
 
 /// √E|δH|² of the complex values of a curve: given, or by its coherence and averages.

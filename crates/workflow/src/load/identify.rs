@@ -1,10 +1,10 @@
 //! What is unknown, how to find it, and the measurement to find it from.
 
 use super::band::{MeasuredNoise, band, unmeasured};
+use super::corrections::Corrections;
 use super::dimension::{PartOf, each_has_a_value};
 use super::factor::{covers, law};
 use super::files::Files;
-use super::leakage::HannWindow;
 use super::lines::unused;
 use super::measurement::Measurement;
 use super::options::{invalid, options, overridden, reduction_of_band};
@@ -43,8 +43,8 @@ pub struct IdentifyCase {
     pub channels: Vec<ChannelUnknowns>,
     /// How well the receptances were measured.
     pub noise: MeasuredNoise,
-    /// The Hann window on the receptances; `None` without one.
-    pub hann: Option<HannWindow>,
+    /// What was found in the receptances.
+    pub corrections: Corrections,
     /// When to look for what is wrong with the data.
     pub check: Check,
 }
@@ -209,7 +209,7 @@ pub(super) fn put_together(
         left_out,
         channels,
         noise: data.noise,
-        hann: data.hann,
+        corrections: data.corrections,
         check: match (entry.check, single) {
             (false, _) => Check::Never,
             (true, true) => Check::First,

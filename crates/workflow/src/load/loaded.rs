@@ -1,8 +1,8 @@
 //! A case with all of its files.
 
+use super::corrections::Corrections;
 use super::files::InputFile;
 use super::identify::IdentifyCase;
-use super::leakage::HannWindow;
 use super::measurement::SensorInfo;
 use super::measurement::measurement_argument;
 use super::modes::ModesCase;
@@ -91,10 +91,10 @@ impl Case {
         self
     }
 
-    /// The Hann window on what was measured; `None` without one.
-    pub fn hann_window(&self) -> Option<&HannWindow> {
-        let of_modes = || self.modes.as_ref()?.measured.as_ref()?.hann.as_ref();
-        self.identify.as_ref().and_then(|identify| identify.hann.as_ref()).or_else(of_modes)
+    /// What was found in what was measured; `None` where nothing was measured.
+    pub fn corrections(&self) -> Option<&Corrections> {
+        let of_modes = || Some(&self.modes.as_ref()?.measured.as_ref()?.corrections);
+        self.identify.as_ref().map(|identify| &identify.corrections).or_else(of_modes)
     }
 
     /// What a sensor's receptance is multiplied by to be in the quantity that it measures, under the measurements' window.

@@ -1,10 +1,10 @@
 //! What the modal view takes of a case beside its model: a band, what was measured in it, and identified factors.
 
 use super::band::{Band, MeasuredNoise, band, respond_hz};
+use super::corrections::Corrections;
 use super::dimension::PartOf;
 use super::files::{Files, NamedFile};
 use super::identify::IdentifyCase;
-use super::leakage::HannWindow;
 use super::measurement::Measurement;
 use super::overrides::Overrides;
 use super::table_of_unknown::table_of_unknown;
@@ -42,8 +42,8 @@ pub struct MeasuredBand {
     pub receptance: Vec<Vec<c64>>,
     /// How well they were measured.
     pub noise: MeasuredNoise,
-    /// The Hann window on them; `None` without one.
-    pub hann: Option<HannWindow>,
+    /// What was found in them.
+    pub corrections: Corrections,
 }
 
 impl ModesCase {
@@ -62,7 +62,7 @@ impl ModesCase {
             frequency_hz: identify.frequency_hz.clone(),
             receptance: identify.measured.clone(),
             noise: identify.noise.clone(),
-            hann: identify.hann.clone(),
+            corrections: identify.corrections.clone(),
         });
         Self {
             band_hz: identify.band_hz,
@@ -91,8 +91,8 @@ pub(super) fn modes(
     let measured = match has_values {
         true => {
             let all = band(measurements, model.decay_per_s(), given.unwrap_or([0.0, f64::MAX]), &place)?;
-            let Band { frequency_hz, measured: receptance, noise, hann, .. } = all;
-            Some(above_zero(MeasuredBand { frequency_hz, receptance, noise, hann }))
+            let Band { frequency_hz, measured: receptance, noise, corrections, .. } = all;
+            Some(above_zero(MeasuredBand { frequency_hz, receptance, noise, corrections }))
         }
         false => None,
     };
@@ -131,7 +131,7 @@ fn unknown_or_all(model: &DynamicStiffness, is_unknown: impl Fn(usize) -> bool) 
 
 /// A structure that nothing holds has no response at rest.
 fn above_zero(band: MeasuredBand) -> MeasuredBand {
-    let MeasuredBand { frequency_hz, receptance, noise, hann } = band;
+    let MeasuredBand { frequency_hz, receptance, noise, corrections } = band;
     let first = frequency_hz.partition_point(|&f| f <= 0.0);
     let noise = match noise {
         MeasuredNoise::Known(std) => MeasuredNoise::Known(std[first..].to_vec()),
@@ -142,7 +142,7 @@ fn above_zero(band: MeasuredBand) -> MeasuredBand {
         frequency_hz: frequency_hz[first..].to_vec(),
         receptance: receptance[first..].to_vec(),
         noise,
-        hann,
+        corrections,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::ModesRun;
 use super::run::MeasuredRun;
 use crate::load::Case;
-use crate::output::{Words, window_text};
+use crate::output::{Words, corrections_text};
 use crate::terminal::short;
 
 /// A factor on the stiffness nearer to one than this is not worth a word.
@@ -33,9 +33,8 @@ pub(super) fn text(case: &Case, run: &ModesRun) -> Words {
     if error > MAX_POLE_ERROR {
         add(true, "reduction", format!("a pole of the model may be off by {error:.1e} of itself"));
     }
-    if let Some(window) = case.hann_window() {
-        let (is_warning, text) = window_text(window);
-        add(is_warning, "window", text);
+    for (is_warning, label, text) in corrections_text(case.corrections()) {
+        add(is_warning, label, text);
     }
     let has_unknown = case.modes.as_ref().is_some_and(|modes| modes.has_unknown);
     if let Some(measured) = &run.measured {

@@ -2,7 +2,7 @@
 
 use super::ModesRun;
 use crate::load::{Case, InputFile};
-use crate::output::window_json;
+use crate::output::corrections_json;
 use frfit::subspace::NaturalMode;
 use serde_json::{Value, json};
 
@@ -28,6 +28,7 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
             .collect::<serde_json::Map<_, _>>()
             .into()
     };
+    let [window, shifts] = corrections_json(case.corrections());
     let measured = run.measured.as_ref().map(|measured| {
         let modes = measured.modes.modes.iter().enumerate().map(|(j, mode)| {
             json!({
@@ -51,7 +52,8 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
         json!({
             "modes": modes.collect::<Vec<_>>(),
             "noise_level": measured.modes.level,
-            "window": window_json(case.hann_window()),
+            "window": window,
+            "frequency_shifts": shifts,
             "pairs": pairs.collect::<Vec<_>>(),
             "stiffness_factor": measured.pairing.stiffness_factor,
             "frac": by_sensor(&measured.frac),

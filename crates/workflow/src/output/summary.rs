@@ -2,7 +2,7 @@
 
 use super::assumptions::contradicted;
 use super::identifiability::{coordinate, not_identifiable};
-use super::{laws_json, smooth_json, window_json};
+use super::{corrections_json, laws_json, smooth_json};
 use crate::load::{Case, IdentifyCase, InputFile, MeasuredNoise, SensorInfo};
 use crate::run::IdentifyRun;
 use frfit::c64;
@@ -37,13 +37,15 @@ pub fn summary_json(
     let by_status = |of: &dyn Fn(Status) -> Value| -> Map<String, Value> {
         statuses().map(|status| (status.name().to_owned(), of(status))).collect()
     };
+    let [window, shifts] = corrections_json(case.corrections());
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "inputs": InputFile::json(&case.inputs),
         "units": case.units.json(),
         "decay_per_s": case.model.decay_per_s(),
-        "window": window_json(case.hann_window()),
+        "window": window,
+        "frequency_shifts": shifts,
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {

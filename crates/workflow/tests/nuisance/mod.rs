@@ -3,6 +3,7 @@
 mod attached;
 mod check;
 mod left_out;
+mod one_by_one;
 mod planted;
 mod scale;
 mod window;

@@ -187,7 +187,7 @@ fn the_leakage_of_a_hann_window_is_removed() {
         job.run.found.lines.iter().filter_map(off).fold(0.0, f64::max)
     };
     let shown = run(&hann_folder(&frequency_hz, ["", ""])).unwrap();
-    let window = shown.case.hann_window().unwrap();
+    let window = shown.case.corrections().unwrap().hann.as_ref().unwrap();
     assert!(
         window.source == WindowSource::Shown && window.nats > 100.0 && window.largest > 0.2,
         "{window:?}"
@@ -197,7 +197,7 @@ fn the_leakage_of_a_hann_window_is_removed() {
     let said = run(&hann_folder(&frequency_hz, ["window = \"hann\""; 2])).unwrap();
     assert_eq!(said.run.found.lines, shown.run.found.lines);
     let none = run(&hann_folder(&frequency_hz, ["window = \"none\""; 2])).unwrap();
-    assert!(none.case.hann_window().is_none());
+    assert!(none.case.corrections().unwrap().hann.is_none());
     assert!(farthest(&none) > 4.0, "{}", farthest(&none));
 }
 

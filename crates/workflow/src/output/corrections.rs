@@ -1,14 +1,30 @@
-//! What is said of a Hann window.
+//! What is said of what measured values have by the way they were measured.
 
-use crate::load::{HannWindow, WindowSource};
+use crate::load::{Corrections, HannWindow, SensorShifts, WindowSource};
 use crate::terminal::short;
 use serde_json::{Value, json};
 
 /// So many nats against a window that the case has are worth a warning.
 const AGAINST_NATS: f64 = -20.0;
 
+/// Labels and sentences, and whether each is a warning.
+pub fn corrections_text(corrections: Option<&Corrections>) -> Vec<(bool, &'static str, String)> {
+    let Some(Corrections { hann, shifts }) = corrections else { return Vec::new() };
+    let window = hann.as_ref().map(window_text).map(|(is_warning, text)| (is_warning, "window", text));
+    window.into_iter().chain(shifts.as_ref().map(|shifts| (true, "sensors", shifts_text(shifts)))).collect()
+}
+
+fn shifts_text(shifts: &SensorShifts) -> String {
+    format!(
+        "natural frequencies differ from sensor to sensor by {:.2} % ({:.0} nats), as of a mass that moves with the sensor, of a \
+         temperature that changes, or of two modes side by side; that is in the error bars",
+        100.0 * shifts.relative_std,
+        shifts.nats
+    )
+}
+
 /// A sentence, and whether it is a warning.
-pub fn window_text(window: &HannWindow) -> (bool, String) {
+fn window_text(window: &HannWindow) -> (bool, String) {
     let HannWindow { record_s, nats, source, largest } = window;
     let records = format!("Hann on records of {} s", short(*record_s));
     let leakage = format!("its leakage, up to {:.2} % of a value, is", 100.0 * largest);
@@ -30,8 +46,15 @@ pub fn window_text(window: &HannWindow) -> (bool, String) {
     }
 }
 
-/// The same for programs, and the sentence for the report.
-pub(crate) fn window_json(window: Option<&HannWindow>) -> Value {
+/// The window and the shifts for programs, with the sentences for the report.
+pub(crate) fn corrections_json(corrections: Option<&Corrections>) -> [Value; 2] {
+    let shifts = corrections.and_then(|found| found.shifts.as_ref()).map(|shifts| {
+        json!({"relative_std": shifts.relative_std, "nats": shifts.nats, "text": shifts_text(shifts)})
+    });
+    [window_json(corrections.and_then(|found| found.hann.as_ref())), json!(shifts)]
+}
+
+fn window_json(window: Option<&HannWindow>) -> Value {
     let of = |window: &HannWindow| {
         json!({
             "kind": "hann",
