@@ -158,12 +158,13 @@ impl Shifted {
             found.information = likelihood(kappa, numbers as f64) + price;
             found.shifts = each.iter().map(|(left, _)| left.shifts(kappa)).collect();
             found.residues = each.into_iter().map(|(_, residues)| residues).collect();
-            // The poles that sensors have in common are those of responses without the shifts.
-            if found.information < found.without && round + 1 < ROUNDS {
-                let without = found.without_shifts(measured);
-                let common = Measured { responses: &without, ..*measured };
-                found.fit = common.refined(&found.fit, for_each).unwrap_or(found.fit);
+            if found.information >= found.without || round + 1 == ROUNDS {
+                break;
             }
+            // The poles that sensors have in common are those of responses without the shifts.
+            let without = found.without_shifts(measured);
+            let common = Measured { responses: &without, ..*measured };
+            found.fit = common.refined(&found.fit, for_each).unwrap_or(found.fit);
         }
         Some(found)
     }
