@@ -9,7 +9,7 @@
 //! # Source
 //! D. A. Harville, J. Am. Stat. Assoc. 72 (1977) 320–338 (restricted likelihood).
 
-use super::leakage::{Shown, UNDECIDED_PIECES, pieces};
+use super::pieces::{Shown, UNDECIDED_PIECES, pieces};
 use super::rational_fit::{Fit, Measured};
 use crate::c64;
 use crate::for_each::{ForEach, map};
@@ -69,11 +69,12 @@ pub fn frequency_shifts(
         let Some(plain) = shown.resonances(&piece.lines, for_each)? else { continue };
         let merged = Fit { poles: merged(&plain.fit.poles), ..plain.fit.clone() };
         let fits = [plain.fit, merged];
+        let best_of = |some: &Shown<'_>| Shifted::best(&some.measured(&piece.lines, None), &fits, for_each);
         // Some sensors show whether it is worth to ask all.
-        if Shifted::best(&shown.measured(&piece.lines, None), &fits, for_each).is_none() {
-            continue;
-        }
-        let best = Shifted::best(&all.measured(&piece.lines, None), &fits, for_each);
+        let best = match best_of(&shown) {
+            Some(_) if shown.sensors() < sensors => best_of(&all),
+            best => best,
+        };
         let Some((nats, best)) = best else { continue };
         found.nats += nats;
         found.relative_std = found.relative_std.max(best.std);
@@ -172,7 +173,7 @@ impl Shifted {
     /// The poles of a sensor.
     fn at(&self, m: usize) -> Fit {
         let poles = self.fit.poles.iter().zip(&self.shifts[m]);
-        Fit { poles: poles.map(|(pole, shift)| pole + pole.norm() * shift * c64::I).collect(), ..self.fit }
+        Fit { poles: poles.map(|(pole, shift)| shifted(*pole, *shift)).collect(), ..self.fit }
     }
 
     /// The responses without the shifts.
@@ -187,10 +188,14 @@ impl Shifted {
     /// What a sensor has more at s than without its shifts.
     fn value(&self, m: usize, s: c64) -> c64 {
         let of = |pole: c64, residue: c64| residue / (s - pole) + residue.conj() / (s - pole.conj());
-        let own = self.at(m).poles;
-        let pairs = own.iter().zip(&self.fit.poles).zip(&self.residues[m]);
-        pairs.map(|((own, common), residue)| of(*own, *residue) - of(*common, *residue)).sum()
+        let modes = self.fit.poles.iter().zip(&self.shifts[m]).zip(&self.residues[m]);
+        modes.map(|((&pole, &shift), &residue)| of(shifted(pole, shift), residue) - of(pole, residue)).sum()
     }
+}
+
+/// s_r + i|s_r|δ.
+fn shifted(pole: c64, shift: f64) -> c64 {
+    pole + pole.norm() * shift * c64::I
 }
 
 /// Z and h of a sensor on the principal axes of ZᵀZ.

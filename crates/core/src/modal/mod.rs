@@ -4,7 +4,9 @@
 //! |---|---|
 //! | `stabilisation` | poles of measured responses at growing orders (LSCF) |
 //! | `rational_fit` | poles fitted to all lines at once, with their covariance |
+//! | `pieces` | the resonances of each piece of the band, for leakage and shifts |
 //! | `hann`, `leakage` | what a Hann window makes of a resonance, and of measured responses |
+//! | `frequency_shifts` | natural frequencies that differ from sensor to sensor |
 //! | `left_over` | resonances in what the fitted poles leave |
 //! | `measured_modes` | which of them are modes |
 //! | `pairing` | which mode of the model is which of the measurement |
@@ -19,6 +21,7 @@ mod leakage;
 mod left_over;
 mod measured_modes;
 mod pairing;
+mod pieces;
 mod rational_fit;
 mod stabilisation;
 mod stiffness_factors;

@@ -48,7 +48,7 @@ pub enum WindowSource {
     Given,
     /// The measured values: its leakage is removed.
     Shown,
-    /// Nobody, and the values do not tell either: its leakage is in their standard deviations.
+    /// Neither the case nor the measured values decide: its leakage is in their standard deviations.
     Undecided,
 }
 
