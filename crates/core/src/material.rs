@@ -1,7 +1,8 @@
 //! Laws of a complex factor over frequency, above all of Young's modulus E(ω) = E′(1 + iη), P-31.
 
 use crate::c64;
-use crate::frequency::omega_rad_s;
+use crate::frequency::laplace_per_s;
+use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
 /// How a term's factor depends on frequency.
@@ -55,9 +56,36 @@ pub struct Branch {
     pub tau_s: f64,
 }
 
-/// (iωτ)^α, in polar form: no logarithm of a complex number is taken.
-pub(crate) fn fractional_power(omega_tau: f64, alpha: f64) -> c64 {
-    c64::from_polar(omega_tau.powf(alpha), alpha * std::f64::consts::FRAC_PI_2)
+/// (sτ)^α, in polar form: no logarithm of a complex number is taken.
+pub(crate) fn fractional_power(s_tau: c64, alpha: f64) -> c64 {
+    c64::from_polar(s_tau.norm().powf(alpha), alpha * s_tau.arg())
+}
+
+/// E at s = iω + α of a modulus that is known at iω: E (s/iω)^p with p = (2/π) arg E, the power law with that loss factor.
+///
+/// The modulus of a causal material is an analytic function of s, so that its slope over ln s is that over ln ω: about (2/π) arg E where the loss factor changes slowly. A real factor
+/// stays what it is.
+///
+/// # Limits
+/// What is left is of the order of (α/ω)², and of α/ω times the change of η within an octave.
+///
+/// # Source
+/// R. H. T. O'Donnell, E. T. Jaynes, J. G. Miller, J. Acoust. Soc. Am. 69 (1981) 696–701.
+fn continued(modulus: c64, s: c64) -> c64 {
+    if s.re == 0.0 || s.im == 0.0 || modulus.re <= 0.0 {
+        return modulus;
+    }
+    modulus * (s / c64::new(0.0, s.im)).powf(modulus.arg() / FRAC_PI_2)
+}
+
+/// E at iω of a modulus that is known at s = iω + α: the inverse of what [`Law::at_laplace`] does to a modulus that is known at one frequency.
+pub(crate) fn at_real_frequency(modulus: c64, frequency_hz: f64, decay_per_s: f64) -> c64 {
+    let s = laplace_per_s(frequency_hz, decay_per_s);
+    if s.re == 0.0 || s.im == 0.0 || modulus.re <= 0.0 {
+        return modulus;
+    }
+    // A power law has the phase p arg s at s.
+    modulus * (c64::new(0.0, s.im) / s).powf(modulus.arg() / s.arg())
 }
 
 /// z/(1 + z), written so that a large z does not overflow.
@@ -101,21 +129,29 @@ impl Law {
     /// # Errors
     /// [`OutsideTable`] for a table that does not reach this frequency: no law extrapolates.
     pub fn at(&self, frequency_hz: f64) -> Result<c64, OutsideTable> {
+        self.at_laplace(frequency_hz, 0.0)
+    }
+
+    /// The factor at s = iω + α, as records with a window e^{−αt} show it ([`crate::model::DynamicStiffness::with_decay_per_s`]).
+    ///
+    /// A law is a function of iω, and has its value at s. Of a constant or a table the loss factor is taken to be that of a power law, E (s/iω)^{(2/π) arg E}.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn at_laplace(&self, frequency_hz: f64, decay_per_s: f64) -> Result<c64, OutsideTable> {
+        let s = laplace_per_s(frequency_hz, decay_per_s);
         match self {
-            Self::Constant(value) => Ok(*value),
-            Self::Fractional { e0, e1, alpha } => {
-                Ok(e0 + e1 * fractional_power(omega_rad_s(frequency_hz), *alpha))
-            }
+            Self::Constant(value) => Ok(continued(*value, s)),
+            Self::Fractional { e0, e1, alpha } => Ok(e0 + e1 * fractional_power(s, *alpha)),
             Self::FractionalZener { e0, e_infinity, tau_s, alpha } => {
-                let z = fractional_power(omega_rad_s(frequency_hz) * tau_s, *alpha);
+                let z = fractional_power(s * tau_s, *alpha);
                 Ok(e0 + (e_infinity - e0) * saturation(z))
             }
             Self::Maxwell { e0, branches } => {
-                let omega = omega_rad_s(frequency_hz);
-                let branch = |b: &Branch| b.modulus * saturation(c64::new(0.0, omega * b.tau_s));
+                let branch = |b: &Branch| b.modulus * saturation(s * b.tau_s);
                 Ok(e0 + branches.iter().map(branch).sum::<c64>())
             }
-            Self::Table(table) => table.at(frequency_hz),
+            Self::Table(table) => Ok(continued(table.at(frequency_hz)?, s)),
         }
     }
 }

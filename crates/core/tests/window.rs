@@ -8,7 +8,7 @@ use frfit::diagnostics::diagnose;
 use frfit::for_each::sequential;
 use frfit::frequency::{laplace_per_s, linear_hz, omega_rad_s};
 use frfit::identify::{
-    Context, Dependence, Frfs, Identification, ModelErrors, Noise, Options, Problem, Reduction, Status,
+    Context, Dependence, Frfs, Identification, Line, ModelErrors, Noise, Options, Problem, Reduction, Status,
     Unknown, Variation, identify,
 };
 use frfit::laws::LawKind;
@@ -143,8 +143,29 @@ fn a_windowed_chain_with_viscous_damping_is_the_model_at_the_complex_frequency()
     is_transformed(model, &experiment, &[modes_at(0), modes_at(2)], &[2.0, 10.9, 15.0, 20.1, 26.3, 50.0]);
 }
 
+/// A s^p, whose loss factor tan(pπ/2) is the same at all frequencies, with the size and the loss factor of a constant modulus at iω.
+fn power_law(modulus: c64, s: c64) -> c64 {
+    let p = loss_factor(modulus).atan() / (0.5 * PI);
+    let size = modulus.norm() * (s.norm() / s.im).powf(p);
+    c64::from_polar(size, p * (s.im / s.re).atan())
+}
+
 /// The model at one frequency with s and s² as factors of stiffnesses: nothing in it knows of windows.
 fn by_hand(model: &DynamicStiffness, experiment: &Experiment, decay_per_s: f64, f: f64) -> Vec<c64> {
+    by_hand_with(model, experiment, decay_per_s, f, &|term, s| match term.role {
+        Role::Stiffness => power_law(term.factor.at(f).unwrap(), s),
+        _ => term.factor.at(f).unwrap(),
+    })
+}
+
+/// The same with the factors of an own function of s.
+fn by_hand_with(
+    model: &DynamicStiffness,
+    experiment: &Experiment,
+    decay_per_s: f64,
+    f: f64,
+    factor_at: &dyn Fn(&Term, c64) -> c64,
+) -> Vec<c64> {
     let s = c(decay_per_s, 2.0 * PI * f);
     let terms = model.terms().iter().map(|term| {
         let by = match term.role {
@@ -152,7 +173,7 @@ fn by_hand(model: &DynamicStiffness, experiment: &Experiment, decay_per_s: f64, 
             Role::Viscous => s,
             Role::Mass => s * s,
         };
-        let factor = Law::Constant(by * term.factor.at(f).unwrap());
+        let factor = Law::Constant(by * factor_at(term, s));
         Term { role: Role::Stiffness, factor, ..term.clone() }
     });
     solved(&DynamicStiffness::new(terms.collect()).unwrap(), experiment, f)
@@ -188,7 +209,8 @@ fn full_and_reduced_model_and_their_derivatives_are_those_of_the_complex_frequen
         let (subspace, trained) = case.trained(1e-9);
         assert!(trained.converged, "{}", case.name);
         for (f, ratio) in case.scattered(20) {
-            let correction = case.correction(f, ratio);
+            // The nominal value is that at s too.
+            let correction = (ratio - 1.0) * case.at(f).parameters[0].nominal;
             let mut terms = case.model.terms().to_vec();
             terms[0].factor = terms[0].factor.scaled(ratio);
             let model = DynamicStiffness::new(terms).unwrap();
@@ -306,6 +328,52 @@ fn the_loss_factor_is_found_from_windowed_responses_in_every_way() {
         assert!(diagnosis.findings.is_empty(), "{quantity}: {:?}", diagnosis.findings);
         // No misfit is taken to be smaller.
         assert!(diagnosis.misfit.unwrap() <= 0.01, "{quantity}: {:?}", diagnosis.misfit);
+    }
+}
+
+/// The modulus of a material that relaxes is seen at s. A law is found as it is; what has a value at each frequency is known but for (α/ω)².
+#[test]
+fn the_modulus_is_that_at_real_frequencies() {
+    let case = damped_bar();
+    let frequency_hz = linear_hz(15.0, 200.0, 60);
+    // E₀ + E₁ s^α is written out.
+    let (e0, e1, alpha) = (6e6, 2e5, 0.4);
+    let modulus = |s: c64| e0 + e1 * (alpha * s.ln()).exp();
+    let factor_at = |term: &Term, s: c64| match term.role {
+        Role::Stiffness => modulus(s),
+        _ => term.factor.at(100.0).unwrap(),
+    };
+    let seen = |&f: &f64| by_hand_with(&case.model, &case.experiment, DECAY, f, &factor_at);
+    let measured: Vec<Vec<c64>> = frequency_hz.iter().map(seen).collect();
+    let model = case.model.clone().with_decay_per_s(DECAY);
+    let off = |lines: &[Line]| {
+        let of_line = |line: &Line| {
+            let exact = modulus(c(0.0, omega_rad_s(line.frequency_hz)));
+            Some((line.factor()? - exact).norm() / exact.norm())
+        };
+        lines
+            .iter()
+            .filter(|line| line.status == Status::Ok)
+            .map(|line| of_line(line).unwrap())
+            .fold(0.0, f64::max)
+    };
+    // (α/ω)² is 0.004 at 15 Hz.
+    for (varies, within) in [
+        (Variation::PerFrequency, 4e-3),
+        (Variation::Smooth, 4e-3),
+        (Variation::law(LawKind::Fractional), 1e-6),
+    ] {
+        let bounds = Bounds { storage: Some([5e6, 2e7]), loss_factor: Some([0.0, 0.9]) };
+        let unknown = Unknown { varies, bounds, ..Unknown::factor_of(&model, &["stiffness"]).unwrap() };
+        let unknowns = [unknown];
+        let data = (&frequency_hz[..], &measured[..]);
+        let found = found(&model, &case.experiment, &unknowns, data, &Options::default());
+        assert!(found.count(Status::Ok) > 55, "{:?}", unknowns[0].varies);
+        assert!(off(&found.lines) < within, "{:?}: {:e}", unknowns[0].varies, off(&found.lines));
+        for fit in &found.laws {
+            let [at_f, exact] = [fit.at(50.0).unwrap().modulus, fit.law.at(50.0).unwrap()];
+            assert!((at_f - exact).norm() < 1e-12 * exact.norm());
+        }
     }
 }
 

@@ -91,8 +91,8 @@ impl Parametrization {
         let middle = frequency_hz.len() / 2;
         let mut each = Vec::with_capacity(unknowns.len());
         for unknown in unknowns {
-            let nominal: Vec<c64> =
-                frequency_hz.iter().map(|&f| unknown.nominal.at(f)).collect::<Result<_, _>>()?;
+            let nominal = |&f: &f64| unknown.nominal.at_laplace(f, problem.model().decay_per_s());
+            let nominal: Vec<c64> = frequency_hz.iter().map(nominal).collect::<Result<_, _>>()?;
             let range = match unknown.dependence {
                 Dependence::Factor(_) => options.search_box(unknown, nominal[middle]),
                 Dependence::Powers(_) => Some(unknown.range(nominal[middle])),

@@ -36,6 +36,7 @@ mod outcome;
 mod problem;
 mod problem_error;
 mod rational;
+mod real_frequencies;
 mod reduced_band;
 mod several;
 mod shown_modes;
@@ -74,6 +75,7 @@ pub use unknown::{Dependence, Unknown, Variation};
 
 use causality_breach::causality_breaches;
 use problem::Strategy;
+use real_frequencies::at_real_frequencies;
 
 /// Identifies the unknowns of a problem.
 ///
@@ -113,7 +115,7 @@ pub fn identify_on<'a>(
     let channels = problem.channels();
     reduced.begin(problem);
     let trained = &mut reduced.subspace;
-    let mut found: Identification = match problem.single() {
+    let found: Identification = match problem.single() {
         None => several::identify_several(problem, trained, options, context)?.into(),
         Some((strategy, parameter)) => {
             let band = &problem.band(0, parameter);
@@ -133,6 +135,7 @@ pub fn identify_on<'a>(
             }
         }
     };
+    let mut found = at_real_frequencies(found, problem);
     found.causality_breaches = causality_breaches(problem.model(), problem.unknowns(), &found.lines);
     Ok(found)
 }

@@ -218,7 +218,7 @@ impl<'a> Composite<'a> {
             );
             let own = match replaced {
                 Some(j) => values[j],
-                None => term.factor.at(frequency_hz)?,
+                None => self.model.factor(index, frequency_hz)?,
             };
             let mut multiplied = self.model.weight(term.role, frequency_hz);
             let powers = self.unknowns.iter().enumerate().filter_map(|(j, one)| match &one.dependence {
@@ -256,6 +256,7 @@ impl<'a> Composite<'a> {
 
     /// The nominal values at a frequency.
     pub(super) fn nominal(&self, frequency_hz: f64) -> Result<Vec<c64>, OutsideTable> {
-        self.unknowns.iter().map(|one| one.nominal.at(frequency_hz)).collect()
+        let decay_per_s = self.model.decay_per_s();
+        self.unknowns.iter().map(|one| one.nominal.at_laplace(frequency_hz, decay_per_s)).collect()
     }
 }

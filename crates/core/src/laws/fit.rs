@@ -113,7 +113,13 @@ impl Parametrization {
     /// About the middle of some frequencies, in the sense of ratios.
     pub(crate) fn about(kind: LawKind, omegas_rad_s: &[f64]) -> Self {
         let logs: f64 = omegas_rad_s.iter().map(|omega| omega.ln()).sum();
-        Self { kind, reference_rad_s: (logs / omegas_rad_s.len().max(1) as f64).exp() }
+        let reference_rad_s = (logs / omegas_rad_s.len().max(1) as f64).exp();
+        Self { kind, reference_rad_s, decay_per_s: 0.0 }
+    }
+
+    /// The same for moduli that are seen through a window e^{−αt}.
+    pub(crate) fn through_window(self, decay_per_s: f64) -> Self {
+        Self { decay_per_s, ..self }
     }
 }
 
@@ -258,6 +264,11 @@ impl LawFit {
         }
     }
 
+    /// The same law with moduli at real frequencies, whatever the window through which it was fitted.
+    pub(crate) fn at_real_frequencies(self) -> Self {
+        Self { parametrization: self.parametrization.through_window(0.0), ..self }
+    }
+
     /// E at a frequency, with the standard deviations that those of the parameters make.
     pub fn at(&self, frequency_hz: f64) -> Option<ModulusEstimate> {
         let (modulus, slopes) = self.parametrization.modulus(&self.theta, omega_rad_s(frequency_hz))?;
@@ -374,8 +385,11 @@ mod tests {
 
     #[test]
     fn branches_and_their_jacobian_are_sorted_alike() {
-        let parametrization =
-            Parametrization { kind: LawKind::Maxwell { branches: 2 }, reference_rad_s: 1.0 };
+        let parametrization = Parametrization {
+            kind: LawKind::Maxwell { branches: 2 },
+            reference_rad_s: 1.0,
+            decay_per_s: 0.0,
+        };
         let theta = [0.0, 1.0, 5.0, 2.0, 3.0];
         let sorted = parametrization.sorted(&theta);
         assert_eq!(sorted, [0.0, 2.0, 3.0, 1.0, 5.0]);

@@ -261,41 +261,46 @@ impl LawKind {
         }
     }
 
-    /// E(ω), and ∂E/∂p for each parameter.
+    /// E at s = iω + α ([`crate::frequency::laplace_per_s`]), without a window of decay α at iω, and ∂E/∂p for each parameter.
     ///
-    /// With s(z) = z/(1 + z), s′ = (1 − s)/(1 + z): ∂z/∂τ = αz/τ and ∂z/∂α = z ln(iωτ) for z = (iωτ)^α.
+    /// With h(z) = z/(1 + z), h′ = (1 − h)/(1 + z): ∂z/∂τ = αz/τ and ∂z/∂α = z ln(sτ) for z = (sτ)^α. The constant one is E′(1 + iη)(s/iω)^p with p = (2/π) arctan η.
     ///
     /// # Panics
     /// Where the number of parameters is not [`LawKind::count`].
-    pub fn with_slopes(self, p: &[f64], omega_rad_s: f64) -> (c64, Vec<c64>) {
+    pub fn with_slopes(self, p: &[f64], s: c64) -> (c64, Vec<c64>) {
         assert_eq!(p.len(), self.count());
         let one = c64::new(1.0, 0.0);
-        // ln(iωτ) for ωτ > 0.
-        let log = |omega_tau: f64| c64::new(omega_tau.ln(), FRAC_PI_2);
+        // ln(sτ) for |sτ| > 0.
+        let log = |s_tau: c64| c64::new(s_tau.norm().ln(), s_tau.arg());
         match self {
             Self::Constant => {
-                let per_storage = c64::new(1.0, p[1]);
-                (p[0] * per_storage, vec![per_storage, c64::new(0.0, p[0])])
+                let (per_storage, of_loss) = (c64::new(1.0, p[1]), c64::new(0.0, 1.0));
+                if s.re == 0.0 || s.im == 0.0 {
+                    return (p[0] * per_storage, vec![per_storage, p[0] * of_loss]);
+                }
+                let ratio = log(s / c64::new(0.0, s.im)) / FRAC_PI_2;
+                let power = (ratio * p[1].atan()).exp();
+                let of_loss = of_loss + per_storage * ratio / (1.0 + p[1] * p[1]);
+                (p[0] * power * per_storage, vec![power * per_storage, p[0] * power * of_loss])
             }
             Self::Fractional => {
-                let power = fractional_power(omega_rad_s, p[2]);
-                (p[0] + p[1] * power, vec![one, power, p[1] * power * log(omega_rad_s)])
+                let power = fractional_power(s, p[2]);
+                (p[0] + p[1] * power, vec![one, power, p[1] * power * log(s)])
             }
             Self::FractionalZener => {
                 let (e0, e_infinity, tau, alpha) = (p[0], p[1], p[2], p[3]);
-                let z = fractional_power(omega_rad_s * tau, alpha);
-                let s = saturation(z);
-                // z s′ = s (1 − s): no z is left that could overflow.
-                let turn = (e_infinity - e0) * s * (1.0 - s);
-                let slopes = vec![1.0 - s, s, turn * alpha / tau, turn * log(omega_rad_s * tau)];
-                (e0 + (e_infinity - e0) * s, slopes)
+                let h = saturation(fractional_power(s * tau, alpha));
+                // z h′ = h (1 − h): no z is left that could overflow.
+                let turn = (e_infinity - e0) * h * (1.0 - h);
+                let slopes = vec![1.0 - h, h, turn * alpha / tau, turn * log(s * tau)];
+                (e0 + (e_infinity - e0) * h, slopes)
             }
             Self::Maxwell { .. } => {
                 let (mut modulus, mut slopes) = (c64::new(p[0], 0.0), vec![one]);
                 for branch in p[1..].chunks_exact(2) {
-                    let s = saturation(c64::new(0.0, omega_rad_s * branch[1]));
-                    modulus += branch[0] * s;
-                    slopes.extend([s, branch[0] * s * (1.0 - s) / branch[1]]);
+                    let h = saturation(s * branch[1]);
+                    modulus += branch[0] * h;
+                    slopes.extend([h, branch[0] * h * (1.0 - h) / branch[1]]);
                 }
                 (modulus, slopes)
             }

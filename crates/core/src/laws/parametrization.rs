@@ -24,6 +24,8 @@ pub(crate) struct Parametrization {
     pub(crate) kind: LawKind,
     /// ω₀, rad/s.
     pub(crate) reference_rad_s: f64,
+    /// The decay α in 1/s of a window through which the modulus is seen: that at iω + α.
+    pub(crate) decay_per_s: f64,
 }
 
 /// Logits beyond this leave no digit between α and 0 or 1.
@@ -81,10 +83,10 @@ impl Parametrization {
         (0..p.len()).map(coordinate).collect()
     }
 
-    /// E(ω) and ∂E/∂θ; `None` where a number is not finite.
+    /// E at iω + α and ∂E/∂θ; `None` where a number is not finite.
     pub(crate) fn modulus(&self, theta: &[f64], omega_rad_s: f64) -> Option<(c64, Vec<c64>)> {
         let (p, chain) = self.parameters(theta);
-        let (modulus, of_p) = self.kind.with_slopes(&p, omega_rad_s);
+        let (modulus, of_p) = self.kind.with_slopes(&p, c64::new(self.decay_per_s, omega_rad_s));
         let of_theta: Vec<c64> = (0..theta.len())
             .map(|j| of_p.iter().zip(&chain).map(|(slope, row)| slope * row[j]).sum())
             .collect();
@@ -153,7 +155,7 @@ mod tests {
         (kind, 0.1f64..1e4).prop_flat_map(|(kind, reference_rad_s)| {
             // Moduli over 14 decades, exponents from 0.002 to 0.998, times within e^6 of the reference.
             let theta = proptest::collection::vec(-6.0f64..6.0, kind.count());
-            theta.prop_map(move |theta| (Parametrization { kind, reference_rad_s }, theta))
+            theta.prop_map(move |theta| (Parametrization { kind, reference_rad_s, decay_per_s: 0.0 }, theta))
         })
     }
 
@@ -207,14 +209,14 @@ mod tests {
         fn slopes_of_natural_parameters_are_those_of_differences((parametrization, theta) in any_coordinates(), at in -5.0f64..5.0) {
             let omega = parametrization.reference_rad_s * at.exp();
             let (p, _) = parametrization.parameters(&theta);
-            let (e, slopes) = parametrization.kind.with_slopes(&p, omega);
+            let (e, slopes) = parametrization.kind.with_slopes(&p, c64::new(0.0, omega));
             for (j, slope) in slopes.iter().enumerate() {
                 // Relative steps: h ∂E/∂p is up to 1e-4 E, and what differences leave of it h³∂³E/∂p³/6 of up to 1e3 times the cube of 1e-4.
                 let h = 1e-4 * p[j].abs().max(1e-12);
                 let moved = |by: f64| {
                     let mut p = p.clone();
                     p[j] += by;
-                    parametrization.kind.with_slopes(&p, omega).0
+                    parametrization.kind.with_slopes(&p, c64::new(0.0, omega)).0
                 };
                 let difference = (moved(h) - moved(-h)) / (2.0 * h);
                 prop_assert!((difference - slope).norm() * h <= 1e-8 * e.norm(), "{j}: {difference} {slope}");

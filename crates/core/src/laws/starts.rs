@@ -86,7 +86,8 @@ fn with_moduli_of(kind: LawKind, tau: f64, alpha: f64, data: &[Datum]) -> Vec<f6
         .map(|j| of_moduli(&(0..count).map(|k| f64::from(u8::from(j == k))).collect::<Vec<_>>()))
         .collect();
     // The modulus is linear in them.
-    let functions: Vec<_> = units.iter().map(|p| move |omega: f64| kind.with_slopes(p, omega).0).collect();
+    let functions: Vec<_> =
+        units.iter().map(|p| move |omega: f64| kind.with_slopes(p, c64::new(0.0, omega)).0).collect();
     let functions: Vec<&dyn Fn(f64) -> c64> = functions.iter().map(|f| f as &dyn Fn(f64) -> c64).collect();
     of_moduli(&coefficients(data, &functions, true))
 }

@@ -78,19 +78,19 @@ impl DynamicStiffness {
         let mut nominal = Combination::default();
         let unknown = |term| parameters.iter().any(|p| p.members.iter().any(|member| member.term == term));
         for (index, term) in self.terms().iter().enumerate().filter(|&(index, _)| !unknown(index)) {
-            let weight = self.weight(term.role, frequency_hz) * term.factor.at(frequency_hz)?;
+            let weight = self.weight(term.role, frequency_hz) * self.factor(index, frequency_hz)?;
             nominal.parts.push(WeightedTerm { term: index, weight });
         }
         let mut expanded = Vec::with_capacity(parameters.len());
         for parameter in parameters {
-            let value = parameter.nominal.at(frequency_hz)?;
+            let value = parameter.nominal.at_laplace(frequency_hz, self.decay_per_s())?;
             let degree = parameter.members.iter().map(|member| member.power).max().unwrap_or(0);
             let mut coefficients = vec![Combination::default(); degree];
             for member in &parameter.members {
                 let term = &self.terms()[member.term];
                 let mut weight = self.weight(term.role, frequency_hz);
                 if parameter.multiplies {
-                    weight *= term.factor.at(frequency_hz)?;
+                    weight *= self.factor(member.term, frequency_hz)?;
                 }
                 // (p̄ + c)^d = Σ_q binomial(d, q) p̄^{d−q} c^q
                 let of_nominal = weight * value.powu(member.power as u32);

@@ -2,7 +2,7 @@
 
 use crate::c64;
 use crate::frequency::{laplace_per_s, squared};
-use crate::material::Law;
+use crate::material::{Law, OutsideTable};
 use frfit_linalg::solve::{Analysis, Engine, Multifrontal};
 use frfit_linalg::sparse::{Pattern, SymmetricMatrix};
 use std::fmt;
@@ -160,9 +160,12 @@ impl DynamicStiffness {
     /// $$ D_w(\omega) = K(\omega) + (i\omega + \alpha) C + (i\omega + \alpha)^2 M = K(\omega) + i(\omega - i\alpha) C - (\omega - i\alpha)^2 M. $$
     /// Everything that asks this model has it from here: full and reduced responses, derivatives, identification and diagnostics.
     ///
+    /// Factors have their values at s too ([`Law::at_laplace`]). What is identified is given at iω: its loss factor is larger than that at s by the share (2/π)α/ω, 0.6 % at 100 Hz
+    /// and 6/s.
+    ///
     /// # Limits
-    /// Exact in mass and viscous terms. Factors are functions of the real ω, which a complex modulus is measured over: it varies over a decade, not over α. Where its
-    /// storage and loss are a causal pair, its loss factor comes out too small by the share (2/π)α/ω: 0.6 % at 100 Hz and 6/s.
+    /// Exact in mass and viscous terms and where a factor is a law. A factor that is known at iω alone (a constant, a table, a value at each frequency, a smooth curve) is a power law in
+    /// the neighbourhood of each frequency.
     #[must_use]
     pub fn with_decay_per_s(self, decay_per_s: f64) -> Self {
         Self { decay_per_s, ..self }
@@ -206,6 +209,14 @@ impl DynamicStiffness {
     /// What a matrix of this role is multiplied by: [`Role::weight`] with the decay of this model.
     pub fn weight(&self, role: Role, frequency_hz: f64) -> c64 {
         role.weight(frequency_hz, self.decay_per_s)
+    }
+
+    /// The factor of a term at a frequency, with the decay of this model.
+    ///
+    /// # Errors
+    /// [`OutsideTable`] where a table does not reach this frequency.
+    pub fn factor(&self, term: usize, frequency_hz: f64) -> Result<c64, OutsideTable> {
+        self.terms[term].factor.at_laplace(frequency_hz, self.decay_per_s)
     }
 
     /// Takes factors in single precision from now on, where the engine has them: half of the memory, and solutions as accurate by more refinement

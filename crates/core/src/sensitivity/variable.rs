@@ -78,7 +78,7 @@ impl Variable {
     ) -> Result<Combination, OutsideTable> {
         let term = |index: usize| -> Result<(c64, c64), OutsideTable> {
             let term = &model.terms()[index];
-            Ok((model.weight(term.role, frequency_hz), term.factor.at(frequency_hz)?))
+            Ok((model.weight(term.role, frequency_hz), model.factor(index, frequency_hz)?))
         };
         let parts = match &self.change {
             Change::Factor(terms) => {

@@ -33,7 +33,7 @@ pub use options::{Options, OptionsError};
 pub use recording::{Recording, RecordingError};
 pub use unit::{Kind, Sensitivity, SensitivityError, Unit, UnknownUnit};
 pub use variance::{relative_variance, variances};
-pub use window::{Windows, added_decay, added_loss_factor};
+pub use window::{Windows, added_decay, added_loss_factor, decaying_within};
 
 use spectra::Spectra;
 use std::fmt;

@@ -32,6 +32,14 @@ pub fn added_decay(exponential_s: f64) -> f64 {
     1.0 / exponential_s
 }
 
+/// What an exponential window leaves of a response at the end of a record whose response has not decayed.
+const LEFT_BY_WINDOW: f64 = 1e-3;
+
+/// The time constant τ in s of an exponential window that leaves a thousandth at the end of a record of `length_s` after the impact, whatever the structure does.
+pub fn decaying_within(length_s: f64) -> f64 {
+    length_s / (1.0 / LEFT_BY_WINDOW).ln()
+}
+
 /// 2β/ω to first order: the loss factor that a decay rate β (1/s) stands for at a frequency; twice the damping ratio β/ω.
 pub fn added_loss_factor(decay_per_s: f64, frequency_hz: f64) -> f64 {
     decay_per_s / (PI * frequency_hz)

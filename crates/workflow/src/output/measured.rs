@@ -6,7 +6,7 @@ use crate::load::{InputFile, decay_line};
 use crate::records::{Records, Sensor};
 use crate::terminal::short;
 use frfit::dof::DofName;
-use frfit::signal::{Channel, Fault, Frf, Impact, Measured, Options, added_loss_factor};
+use frfit::signal::{Channel, Fault, Frf, Impact, Measured, Options, added_loss_factor, decaying_within};
 use frfit_formats::FormatError;
 use frfit_formats::csv::{Cell, write};
 use frfit_formats::uff::{Dof, Form, FunctionHeader, FunctionType, Units, write as uff};
@@ -119,9 +119,10 @@ fn warnings(records: &Records, measured: &Measured) -> Vec<String> {
         if let Some(rest) = rest.filter(|_| measured.added_decay_per_s.is_none()) {
             warnings.push(format!(
                 "{} has not decayed: {:.1} % of its largest value is left at the end of the record and wraps around \
-                 (record longer, or use an exponential window)",
+                 (record longer, or use --exponential-window {:.1e}: it leaves at most 0.1 %, and frfit identify takes it into the model)",
                 sensor.name,
-                100.0 * rest
+                100.0 * rest,
+                decaying_within(measured.samples as f64 * measured.step_s)
             ));
         }
     }

@@ -10,7 +10,7 @@ use frfit::response::{FullModel, Response};
 use frfit_linalg::sparse::Triplets;
 use frfit_workflow::job::{IdentifyJob, respond_case};
 use frfit_workflow::load::{Choice, Overrides, Purpose, WindowSource, load, load_frf};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fs;
 use tempfile::TempDir;
 
@@ -18,6 +18,11 @@ const DECAY: f64 = 6.0;
 
 /// Viscous damping of the fourth row (from 1), N s/m.
 const DAMPING: f64 = 4.0;
+
+/// The modulus whose value at iω is [`TRUTH`], at s: a power law, whose loss factor is the same at all frequencies.
+fn truth_at(s: c64) -> c64 {
+    TRUTH * (s / c64::new(0.0, s.im)).powf(TRUTH.arg() / FRAC_PI_2)
+}
 
 /// Mobility of row 6 and accelerance of row 8 (from 1) behind the window: K + s C + s² M with s = α + iω, all three as stiffnesses of a model at one frequency.
 fn measured(frequency_hz: &[f64]) -> [Vec<c64>; 2] {
@@ -27,7 +32,7 @@ fn measured(frequency_hz: &[f64]) -> [Vec<c64>; 2] {
     let matrices = [springs(), damper, mass].map(|triplets| triplets.assemble());
     let at = |f: f64| {
         let s = c64::new(DECAY, TAU * f);
-        let terms = matrices.iter().zip([("k", TRUTH), ("c", s), ("m", s * s)]);
+        let terms = matrices.iter().zip([("k", truth_at(s)), ("c", s), ("m", s * s)]);
         let terms = terms.map(|(matrix, (name, factor))| Term {
             name: name.into(),
             role: Role::Stiffness,

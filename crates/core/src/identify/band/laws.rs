@@ -321,7 +321,8 @@ impl Fitting<'_, '_> {
             return None;
         }
         let omegas: Vec<f64> = (0..self.at.len()).map(|i| self.omega(i)).collect();
-        let parametrization = Parametrization::about(kind, &omegas);
+        let parametrization =
+            Parametrization::about(kind, &omegas).through_window(self.band.model.decay_per_s());
         let mut begin = self.starts(&parametrization, reduced, free, so_far);
         let all: Vec<usize> = (0..self.at.len()).collect();
         let mut first: Option<LocalMinima> = None;

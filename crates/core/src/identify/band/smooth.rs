@@ -27,7 +27,7 @@ use crate::identify::noise::{MIN_NOISE_LEVEL, NoiseLevel, NoiseSource, without};
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
-use crate::material::OutsideTable;
+use crate::material::{OutsideTable, at_real_frequency};
 use crate::model::ModelAt;
 use crate::response::relative_error;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
@@ -59,6 +59,8 @@ pub struct SmoothCurve {
     evidence: Evidence,
     level: f64,
     real: bool,
+    /// The window through which the values are seen.
+    decay_per_s: f64,
 }
 
 /// Steps of Gauss and Newton for each training of the subspace.
@@ -475,7 +477,18 @@ impl Smoothing<'_, '_> {
         let range = observations[observations.len() - 1].x - observations[0].x;
         let width_octaves = range / parameters / std::f64::consts::LN_2;
         let (level, real) = (smoothed.level, self.band.unknown.real);
-        SmoothCurve { parameters, width_octaves, converged, outliers, observations, evidence, level, real }
+        let decay_per_s = self.band.model.decay_per_s();
+        SmoothCurve {
+            parameters,
+            width_octaves,
+            converged,
+            outliers,
+            observations,
+            evidence,
+            level,
+            real,
+            decay_per_s,
+        }
     }
 }
 
@@ -494,7 +507,7 @@ impl SmoothCurve {
         let at = |f: &f64| {
             let x = omega_rad_s(*f).ln();
             let k = all.partition_point(|o| o.x < x).min(all.len() - 1);
-            let factor = modulus(&smoothed.curve.states[k]);
+            let factor = at_real_frequency(modulus(&smoothed.curve.states[k]), *f, self.decay_per_s);
             let part_std = factor.norm() * smoothed.curve.variance[k].sqrt();
             // Nothing was measured there that could be far from linear.
             (

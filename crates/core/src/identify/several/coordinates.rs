@@ -50,8 +50,9 @@ impl Coordinates {
         unknowns: &[Unknown],
         vary: impl Fn(&Unknown) -> Variation,
         nominal: &[c64],
-        omegas: &[f64],
+        (omegas, decay_per_s): (&[f64], f64),
     ) -> Self {
+        let law = |kind| Form::Law(Parametrization::about(kind, omegas).through_window(decay_per_s));
         let (mut each, mut count, mut limits) = (Vec::new(), 0, Vec::new());
         for (j, one) in unknowns.iter().enumerate() {
             let form = match (&vary(one), one.real) {
@@ -63,8 +64,8 @@ impl Coordinates {
                         false => Form::Scaled(nominal[j].norm().max(low.abs()).max(high.abs())),
                     }
                 }
-                (Variation::Constant, false) => Form::Law(Parametrization::about(LawKind::Constant, omegas)),
-                (Variation::Law(kinds), _) => Form::Law(Parametrization::about(kinds[0], omegas)),
+                (Variation::Constant, false) => law(LawKind::Constant),
+                (Variation::Law(kinds), _) => law(kinds[0]),
             };
             let own = form.count();
             match &form {

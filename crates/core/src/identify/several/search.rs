@@ -188,9 +188,14 @@ impl Task<'_, '_> {
     }
 
     /// What holds for the band, as it varies.
+    /// The frequencies, and the window through which they are seen.
+    pub(super) fn seen(&self) -> (&[f64], f64) {
+        (&self.omegas, self.problem.model.decay_per_s())
+    }
+
     pub(super) fn coordinates(&self) -> Coordinates {
         let middle = &self.nominal[self.nominal.len() / 2];
-        Coordinates::new(self.problem.unknowns, |one| one.varies.clone(), middle, &self.omegas)
+        Coordinates::new(self.problem.unknowns, |one| one.varies.clone(), middle, self.seen())
             .with_channels(self.problem.channels, &self.omegas)
     }
 

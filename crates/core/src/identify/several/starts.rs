@@ -42,8 +42,7 @@ impl Task<'_, '_> {
         let which: Vec<usize> = thinned(&all, most).copied().collect();
         let rough = map(self.context.for_each, which.len(), |k| reduced.rough(which[k], LOG_RESPONSE_TOL));
         let middle = &self.nominal[all.len() / 2];
-        let constants =
-            Coordinates::new(self.problem.unknowns, |_| Variation::Constant, middle, &self.omegas);
+        let constants = Coordinates::new(self.problem.unknowns, |_| Variation::Constant, middle, self.seen());
         let of = |values: &[c64]| constants.of(values, |_, _| Vec::new());
         let points =
             (1..=POINTS_PER_NUMBER * constants.count).map(|k| of(&in_box(&reduced.composite, middle, k)));
