@@ -30,6 +30,22 @@ fn a_fault_is_told_in_words_with_the_key_to_change() {
     assert_eq!(found["findings"].as_array().unwrap().len(), 1);
 }
 
+/// As on the page about the report: both sensors are elsewhere. A factor without a name beside another row fits nearly as well.
+#[test]
+fn two_wrong_rows_are_found_together() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["example", "rubber-bar-end", "bar"]);
+    let file = folder.path().join("bar/case.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    let wrong = text.replace("row = 101", "row = 81").replace("row = 51", "row = 31");
+    fs::write(file, wrong).unwrap();
+    let found: serde_json::Value =
+        serde_json::from_str(&done(folder.path(), &["check", "bar/case.toml", "--json"])).unwrap();
+    let words: Vec<&str> =
+        found["findings"].as_array().unwrap().iter().map(|one| one["what"].as_str().unwrap()).collect();
+    assert!(words.len() == 2 && words[0].contains("row 51") && words[1].contains("row 101"), "{words:?}");
+}
+
 #[test]
 fn a_clean_case_has_no_finding() {
     let folder = tempfile::tempdir().unwrap();

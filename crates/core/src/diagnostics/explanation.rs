@@ -178,7 +178,7 @@ impl Explanation {
     }
 
     /// Whether it needs a factor without a name: with a second fault beside it, that fits too much.
-    fn has_unnamed_factor(&self) -> bool {
+    pub(super) fn has_unnamed_factor(&self) -> bool {
         let least_std = self.fitted.misfit.sigma / (self.fitted.values.max(1) as f64).sqrt();
         self.edits.iter().any(|edit| edit.change == Change::Factor) && self.known_factor(least_std).is_none()
     }

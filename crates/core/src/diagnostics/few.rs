@@ -302,7 +302,10 @@ impl Look<'_> {
                 rows.extend(self.rows(&search, &grid, beside, &self.swept(&search, beside))?);
             }
             tried.extend(rows.into_iter().filter(explanation::is_large));
-            if left(&tried, Fitted::worst) > of_rows {
+            // A factor without a name beside another row fits what two other rows do.
+            let is_plain = |one: &&Explanation| one.faults() < 2 || !one.has_unnamed_factor();
+            let plain: Vec<Explanation> = tried.iter().filter(is_plain).cloned().collect();
+            if left(&plain, Fitted::worst) > of_rows {
                 tried.extend(self.row_pairs(&search, &as_given, &swept)?);
             }
         }
