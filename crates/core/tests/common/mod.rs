@@ -204,6 +204,11 @@ pub(crate) fn bar(elements: usize) -> Case {
 
 /// A cantilever of two aluminium skins on a core of rubber, its core unknown: 3 nx (ny + 1) 4 rows.
 pub(crate) fn sandwich(nx: usize, ny: usize) -> Case {
+    sandwich_at(nx, ny, [0.3, 0.0], &[[1.0, 1.0], [0.5, 0.0]])
+}
+
+/// The same, driven and measured at the nodes nearest to these parts of its length and width.
+pub(crate) fn sandwich_at(nx: usize, ny: usize, load: [f64; 2], sensors: &[[f64; 2]]) -> Case {
     let skin = Layer { thickness: 0.0015, material: 0, ..Layer::default() };
     let core = Layer { thickness: 0.002, elements: 1, poisson: 0.45, material: 1 };
     let (length, width) = (0.24, 0.03);
@@ -211,8 +216,9 @@ pub(crate) fn sandwich(nx: usize, ny: usize) -> Case {
     let beam =
         Brick { length, width, elements: [nx, ny], layers, clamped: vec![Face::XMin], ..Brick::default() };
     let beam = beam.assemble().unwrap();
-    let at = |x: f64, y: f64| nearest(&beam, [x * length, y * width, 0.005], Direction::Z);
-    let experiment = Experiment::driven_at(beam.dofs.len(), at(0.3, 0.0), vec![at(1.0, 1.0), at(0.5, 0.0)]);
+    let at = |[x, y]: [f64; 2]| nearest(&beam, [x * length, y * width, 0.005], Direction::Z);
+    let sensors = sensors.iter().map(|&place| at(place)).collect();
+    let experiment = Experiment::driven_at(beam.dofs.len(), at(load), sensors);
     let core = Law::Fractional { e0: 1.5 * 8.14e5, e1: 1.5 * 7.31e4, alpha: 0.528 };
     let model = DynamicStiffness::new(vec![
         term("skins", Role::Stiffness, beam.stiffness[0].clone(), c(7e10, 7e7)),

@@ -7,6 +7,7 @@ use super::fitting::{Fitting, Place, middle};
 use super::kinds::Kinds;
 use super::measured::{SAME_START, distance};
 use super::paired::ByModes;
+use super::sizes::{DOUBTFUL_SHAPE_STD, MISPLACED_SHAPE_STD};
 use crate::subspace::{Modes, Projection};
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
@@ -93,7 +94,28 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
         if !is_found(&wrong) {
             wrong = self.better(wrong, self.upwards());
         }
-        Some(self.tuned(wrong?))
+        let wrong = self.tuned(wrong?);
+        // What small errors do not explain, shapes that may be far off explain with any modulus.
+        let are_doubtful = self.is_found(&wrong) && wrong.sizes.shape >= DOUBTFUL_SHAPE_STD;
+        let misplaced = if are_doubtful { self.with_misplaced_sensors() } else { None };
+        self.better(Some(wrong), misplaced)
+    }
+
+    /// From the starts with shapes as far off as where a sensor or the load is beside its place. From smaller ones natural frequencies take a part of such errors, and the unknowns
+    /// follow them.
+    fn with_misplaced_sensors(&self) -> Option<Explained> {
+        let data = self.search.data;
+        let known = self.coarse.known.with_shape(MISPLACED_SHAPE_STD);
+        if self.coarse.known.given.shape.is_some() {
+            return None;
+        }
+        let coarse = Fitting { kinds: Kinds::STIFFNESS, known, ..self.coarse };
+        let place = self.nearest(&coarse, self.at_starts())?;
+        self.search.near(place, Kinds::STIFFNESS, &|fitting, place| {
+            let far = Fitting { known, ..*fitting };
+            let with_size = data.explain(&far, place, &ADDED_NOISE[FIRST_LEVELS..])?;
+            data.settled_with(fitting, with_size.found.place, with_size.sizes)
+        })
     }
 
     /// From the starts. Far from the answer damping that is free only hides that a mode is at another frequency, and masses may.
@@ -247,10 +269,14 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
 
     /// From the best of some places, with some lines at first.
     fn fitted(&self, places: Vec<Place>, kinds: Kinds) -> Option<Explained> {
-        let coarse = Fitting { kinds, ..self.coarse };
-        let ends = places.into_iter().filter_map(|place| self.search.data.approach(&coarse, place));
-        let (_, place) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let place = self.nearest(&Fitting { kinds, ..self.coarse }, places)?;
         self.explained(place, kinds, &ADDED_NOISE[FIRST_LEVELS..])
+    }
+
+    /// The best of where some places lead with some lines.
+    fn nearest(&self, coarse: &Fitting<'_, '_>, places: Vec<Place>) -> Option<Place> {
+        let ends = places.into_iter().filter_map(|place| self.search.data.approach(coarse, place));
+        Some(ends.min_by(|a, b| a.0.total_cmp(&b.0))?.1)
     }
 
     /// From a place, with all lines and these levels of added noise, on a model that is good there.

@@ -119,7 +119,17 @@ impl Measured<'_, '_> {
 
     /// The same from a place that is near, with the noise that it leaves: more would let go what was found.
     pub(super) fn settled_near(&self, fitting: &Fitting<'_, '_>, place: Place) -> Option<Explained> {
-        let sizes = Sizes::prior(fitting.known).of_kinds(fitting.kinds, fitting.known);
+        self.settled_with(fitting, place, Sizes::prior(fitting.known))
+    }
+
+    /// The same with these sizes to begin with.
+    pub(super) fn settled_with(
+        &self,
+        fitting: &Fitting<'_, '_>,
+        place: Place,
+        sizes: Sizes,
+    ) -> Option<Explained> {
+        let sizes = sizes.of_kinds(fitting.kinds, fitting.known);
         let at = fitting.linearised(place)?;
         let (residuals, numbers) = (at.residuals(), self.numbers(fitting.lines) as f64);
         let begin = if self.known() {

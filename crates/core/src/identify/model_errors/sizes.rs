@@ -16,6 +16,12 @@ pub(super) const CALIBRATION_PRIOR_STD: f64 = 0.01;
 pub(super) const LARGE_FREQUENCY_STD: f64 = 0.02;
 pub(super) const LARGE_SHAPE_STD: f64 = 0.1;
 
+/// A sensor or a load beside its place in the model sees shapes that are this much off, and natural frequencies that are right.
+pub(super) const MISPLACED_SHAPE_STD: f64 = 0.3;
+
+/// Shapes that are found to be so far off may be those of a sensor beside its place.
+pub(super) const DOUBTFUL_SHAPE_STD: f64 = 0.05;
+
 /// The same of a mass at a sensor over the apparent mass there: accelerometers have some tenths of a per cent of what they are on.
 pub(super) const SENSOR_MASS_PRIOR_STD: f64 = 0.005;
 
@@ -87,6 +93,11 @@ impl KnownSizes {
             most_of_modes: if is_curve_beside_others { MAX_OF_MODES_BESIDE_CURVE } else { f64::INFINITY },
             least_of_unknown_loss: least(is_unknown, LEAST_OF_UNKNOWN_LOSS_STD),
         }
+    }
+
+    /// With shapes of a size that is given.
+    pub(super) fn with_shape(self, shape: f64) -> Self {
+        Self { given: ErrorSizes { shape: Some(shape), ..self.given }, ..self }
     }
 
     /// Where errors are so much smaller than usual.
