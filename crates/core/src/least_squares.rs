@@ -133,8 +133,25 @@ pub(crate) fn descend(start: &[f64], evaluate: Evaluate<'_>, search: &Search) ->
     let sum = residuals.iter().map(|r| r * r).sum();
     // Nothing to gain to the last bit is as good as it gets.
     let reason = report.termination;
-    let converged = reason.was_successful() || matches!(reason, TerminationReason::NoImprovementPossible(_));
+    let has_ended = reason.was_successful() || matches!(reason, TerminationReason::NoImprovementPossible(_));
+    let converged = has_ended || is_settled(&residuals, &jacobian, n);
     Some(Minimum { theta, sum, jacobian, converged })
+}
+
+/// Of a residual that is noise, what a last step may still gain: it moves nothing that the data determine by more than a tenth of its standard deviation.
+const SETTLED_GAIN: f64 = 0.01;
+
+/// Whether a full step gains next to nothing by the slopes: r·P r with the projection P on the columns of the Jacobian. A search that has lost its
+/// patience in a flat valley, as where a law has a parameter too many, ends there.
+fn is_settled(residuals: &[f64], jacobian: &[f64], n: usize) -> bool {
+    let m = residuals.len();
+    let Some(inverse) = inverse_information(jacobian, n).filter(|_| m > n) else { return false };
+    let pull: Vec<f64> =
+        jacobian.chunks_exact(m).map(|c| c.iter().zip(residuals).map(|(a, b)| a * b).sum()).collect();
+    let pairs = (0..n * n).map(|k| pull[k / n] * inverse[k / n][k % n] * pull[k % n]);
+    let gain: f64 = pairs.filter(|product| product.is_finite()).sum();
+    let sum: f64 = residuals.iter().map(|r| r * r).sum();
+    gain <= SETTLED_GAIN * sum / (m - n) as f64
 }
 
 /// (JᵀJ)⁻¹, n × n, row after row.
@@ -184,6 +201,19 @@ mod tests {
         let (x, y) = (t[0], t[1]);
         let r = vec![-13.0 + x + ((5.0 - y) * y - 2.0) * y, -29.0 + x + ((y + 1.0) * y - 14.0) * y];
         Some((r, vec![1.0, 1.0, 10.0 * y - 3.0 * y * y - 2.0, 3.0 * y * y + 2.0 * y - 14.0]))
+    }
+
+    /// A mean with and without a tenth of its standard deviation too much, and with half of it.
+    #[test]
+    fn a_search_is_settled_where_a_step_gains_nothing_that_noise_does_not() {
+        let noise = [1.2, -0.7, 0.4, -1.5, 0.9, -0.3];
+        let std = (noise.iter().map(|r| r * r).sum::<f64>() / 5.0 / 6.0).sqrt();
+        for (off, settled) in [(0.0, true), (0.09, true), (0.5, false)] {
+            let residuals = noise.map(|r| r + off * std);
+            assert_eq!(is_settled(&residuals, &[1.0; 6], 1), settled, "{off}");
+        }
+        // Two coordinates that are one, and as many coordinates as residuals.
+        assert!(!is_settled(&noise, &[1.0; 12], 2) && !is_settled(&[0.0], &[1.0], 1));
     }
 
     #[test]
