@@ -43,11 +43,12 @@ pub struct CheckJob {
 impl CheckJob {
     /// What `frfit check --json` prints.
     pub fn json(&self) -> Value {
-        let [window, shifts] = corrections_json(self.case.corrections());
+        let [window, shifts, cut_off] = corrections_json(self.case.corrections());
         json!({
             "title": self.case.title,
             "window": window,
             "frequency_shifts": shifts,
+            "cut_off": cut_off,
             "findings": findings_json(&self.case, &self.diagnosis),
             "other_explanations": others_json(&self.case, &self.diagnosis),
             "misfit": self.diagnosis.misfit,

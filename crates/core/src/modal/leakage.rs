@@ -1,4 +1,4 @@
-//! Leakage of a Hann window: what it adds to measured responses, and whether they show it.
+//! Leakage: what a Hann window adds to measured responses, and whether they show it; and what is cut off with the end of a record.
 //!
 //! Poles and residues are fitted to all lines twice: as resonances, and as what a Hann window makes of them (`hann`). The second fit says what the window
 //! has added, and the difference of both says whether there was one.
@@ -53,6 +53,40 @@ pub fn hann_leakage(
         }
     }
     Ok(leakage)
+}
+
+/// How much FRFs of impacts are wrong because their records of length T end before the responses have decayed, `[frequency][sensor]`; s = iω + α with the decay α of an
+/// exponential window:
+/// $$ \Big( \sum_r \Big| \frac{R_{mr}}{s - s_r} \Big|^2 e^{2 (\operatorname{Re} s_r - \alpha) T} \Big)^{1/2} . $$
+/// The transform of a free vibration ends with the factor 1 − e^{(s_r − s)T}. Its phase depends on when in the record the impact was.
+///
+/// # Errors
+/// [`NoConvergence`] where a response is not finite.
+///
+/// # Limits
+/// Modes outside of the lines are not in it. The time before the impact counts as if the response had decayed in it too.
+pub fn cut_off(
+    frfs: Frfs<'_>,
+    decay_per_s: f64,
+    record_s: f64,
+    for_each: ForEach<'_>,
+) -> Result<Vec<Vec<f64>>, NoConvergence> {
+    let (shown, all) = (Shown::of_some(frfs, decay_per_s), Shown::of_all(frfs, decay_per_s));
+    let mut cut_off = vec![vec![0.0_f64; all.sensors()]; frfs.frequency_hz.len()];
+    for piece in pieces(frfs.frequency_hz) {
+        let Some(plain) = shown.resonances(&piece.lines, for_each)? else { continue };
+        let Some(fitted) = all.measured(&piece.lines, None).fitted(&plain.fit, for_each) else { continue };
+        for i in piece.own {
+            let s = laplace_per_s(frfs.frequency_hz[i], decay_per_s);
+            for (pole, residues) in plain.fit.poles.iter().zip(&fitted.residues) {
+                let left = ((pole.re - decay_per_s) * record_s).exp() / (s - pole).norm();
+                for (sum, residue) in cut_off[i].iter_mut().zip(residues) {
+                    *sum = sum.hypot(left * residue.norm());
+                }
+            }
+        }
+    }
+    Ok(cut_off)
 }
 
 /// By how many nats (BIC) measured responses are likelier with a Hann window on records of length T than without one. Where the first lines speak

@@ -28,7 +28,7 @@ mod stiffness_factors;
 
 pub use correlation::{assurance, coordinate_assurance, scale_assurance};
 pub use frequency_shifts::{FrequencyShifts, frequency_shifts};
-pub use leakage::{HANN_LEAKAGE_RSTD, hann_evidence, hann_leakage};
+pub use leakage::{HANN_LEAKAGE_RSTD, cut_off, hann_evidence, hann_leakage};
 pub use measured_modes::{MeasuredMode, MeasuredModes, PoleOptions, measured_modes};
 pub use pairing::{Pair, PairedShape, Pairing, paired};
 pub(crate) use pairing::{best, nearest_pairs};

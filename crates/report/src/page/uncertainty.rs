@@ -49,7 +49,9 @@ fn noise(results: &Results) -> String {
         _ => write!(html, " The fit was not tested against it: {}.", verdict::untested(results)),
     };
     html += "</p>\n";
-    for (heading, path) in [("Window", "/window/text"), ("Sensors", "/frequency_shifts/text")] {
+    for (heading, path) in
+        [("Window", "/window/text"), ("Sensors", "/frequency_shifts/text"), ("Records", "/cut_off/text")]
+    {
         if let Some(text) = Some(summary.word(path)).filter(|text| !text.is_empty()) {
             let _ = writeln!(html, "<p>{heading}: {}.</p>", escape(text));
         }

@@ -1,5 +1,5 @@
-//! What measured values have by the way they were measured: leakage of a Hann window, which is removed, and natural frequencies that differ from sensor to sensor,
-//! which are in their standard deviations.
+//! What measured values have by the way they were measured: leakage of a Hann window, which is removed; natural frequencies that differ from sensor to sensor, and what the
+//! end of a record cuts off, which are in their standard deviations.
 
 use super::band::{raw_std, row_of};
 use super::measurement::Curve;
@@ -8,7 +8,9 @@ use crate::error::InputError;
 use crate::run::in_parallel;
 use frfit::c64;
 use frfit::identify::{Frfs, Noise};
-use frfit::modal::{FrequencyShifts, HANN_LEAKAGE_RSTD, frequency_shifts, hann_evidence, hann_leakage};
+use frfit::modal::{
+    FrequencyShifts, HANN_LEAKAGE_RSTD, cut_off, frequency_shifts, hann_evidence, hann_leakage,
+};
 
 /// What was found in measured values.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -17,6 +19,8 @@ pub struct Corrections {
     pub hann: Option<HannWindow>,
     /// How natural frequencies differ from sensor to sensor; `None` where they do not.
     pub shifts: Option<SensorShifts>,
+    /// The most that the end of the records cuts off a value, over its size; `None` where the responses have decayed.
+    pub cut_off: Option<f64>,
 }
 
 /// Natural frequencies that differ from sensor to sensor.
@@ -137,6 +141,18 @@ pub(super) fn corrected(
         }
         found.corrections.hann = Some(window);
     }
+    // An exponential window says that there was an impact.
+    if let Some(record_s) = curves.first().and_then(|first| first.lines_of_a_transform_s())
+        && decay_per_s > 0.0
+        && let Ok(sizes) = cut_off(frfs, decay_per_s, record_s, &in_parallel)
+    {
+        let sizes: Vec<Vec<c64>> =
+            sizes.iter().map(|row| row.iter().map(|&size| size.into()).collect()).collect();
+        if matters(&sizes, frfs) {
+            found.add(&sizes, |value| value.norm(), false);
+            found.corrections.cut_off = Some(largest(&sizes, &values));
+        }
+    }
     // Shifts are those of values without leakage.
     let difference = |(value, (removed, _)): (&c64, &(c64, f64))| value - removed;
     let rows = values.iter().zip(&found.removed);
@@ -167,6 +183,12 @@ fn matters(values: &[Vec<c64>], frfs: Frfs<'_>) -> bool {
     })
 }
 
+/// The largest of some parts of values, over the size of the value.
+fn largest(parts: &[Vec<c64>], values: &[Vec<c64>]) -> f64 {
+    let sizes = parts.iter().flatten().zip(values.iter().flatten());
+    sizes.map(|(part, value)| part.norm() / value.norm()).fold(0.0, f64::max)
+}
+
 /// The Hann window of values that it is said of or that show it, with its leakage.
 fn hann_window(frfs: Frfs<'_>, record_s: f64, is_given: bool) -> Option<(HannWindow, Vec<Vec<c64>>)> {
     let nats = hann_evidence(frfs, record_s, &in_parallel).ok()?;
@@ -177,8 +199,7 @@ fn hann_window(frfs: Frfs<'_>, record_s: f64, is_given: bool) -> Option<(HannWin
         _ => return None,
     };
     let leakage = hann_leakage(frfs, record_s, &in_parallel).ok()?;
-    let sizes = leakage.iter().flatten().zip(frfs.receptance.iter().flatten());
-    let largest = sizes.map(|(leakage, value)| leakage.norm() / value.norm()).fold(0.0, f64::max);
+    let largest = largest(&leakage, frfs.receptance);
     if source == WindowSource::Undecided && !matters(&leakage, frfs) {
         return None;
     }

@@ -28,7 +28,7 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
             .collect::<serde_json::Map<_, _>>()
             .into()
     };
-    let [window, shifts] = corrections_json(case.corrections());
+    let [window, shifts, cut_off] = corrections_json(case.corrections());
     let measured = run.measured.as_ref().map(|measured| {
         let modes = measured.modes.modes.iter().enumerate().map(|(j, mode)| {
             json!({
@@ -54,6 +54,7 @@ pub(super) fn json(case: &Case, run: &ModesRun) -> Value {
             "noise_level": measured.modes.level,
             "window": window,
             "frequency_shifts": shifts,
+            "cut_off": cut_off,
             "pairs": pairs.collect::<Vec<_>>(),
             "stiffness_factor": measured.pairing.stiffness_factor,
             "frac": by_sensor(&measured.frac),

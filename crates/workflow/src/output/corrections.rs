@@ -9,9 +9,19 @@ const AGAINST_NATS: f64 = -20.0;
 
 /// Labels and sentences, and whether each is a warning.
 pub fn corrections_text(corrections: Option<&Corrections>) -> Vec<(bool, &'static str, String)> {
-    let Some(Corrections { hann, shifts }) = corrections else { return Vec::new() };
+    let Some(Corrections { hann, shifts, cut_off }) = corrections else { return Vec::new() };
     let window = hann.as_ref().map(window_text).map(|(is_warning, text)| (is_warning, "window", text));
-    window.into_iter().chain(shifts.as_ref().map(|shifts| (true, "sensors", shifts_text(shifts)))).collect()
+    let shifts = shifts.as_ref().map(|shifts| (true, "sensors", shifts_text(shifts)));
+    let cut_off = cut_off.map(|largest| (true, "records", cut_off_text(largest)));
+    window.into_iter().chain(shifts).chain(cut_off).collect()
+}
+
+fn cut_off_text(largest: f64) -> String {
+    format!(
+        "the records end before the responses have decayed: that is up to {:.2} % of a value, and in the error bars; record longer, or let \
+         the window decay faster",
+        100.0 * largest
+    )
 }
 
 fn shifts_text(shifts: &SensorShifts) -> String {
@@ -46,12 +56,14 @@ fn window_text(window: &HannWindow) -> (bool, String) {
     }
 }
 
-/// The window and the shifts for programs, with the sentences for the report.
-pub(crate) fn corrections_json(corrections: Option<&Corrections>) -> [Value; 2] {
+/// The window, the shifts and what is cut off for programs, with the sentences for the report.
+pub(crate) fn corrections_json(corrections: Option<&Corrections>) -> [Value; 3] {
     let shifts = corrections.and_then(|found| found.shifts.as_ref()).map(|shifts| {
         json!({"relative_std": shifts.relative_std, "nats": shifts.nats, "text": shifts_text(shifts)})
     });
-    [window_json(corrections.and_then(|found| found.hann.as_ref())), json!(shifts)]
+    let cut_off = corrections.and_then(|found| found.cut_off);
+    let cut_off = cut_off.map(|largest| json!({"largest": largest, "text": cut_off_text(largest)}));
+    [window_json(corrections.and_then(|found| found.hann.as_ref())), json!(shifts), json!(cut_off)]
 }
 
 fn window_json(window: Option<&HannWindow>) -> Value {

@@ -37,7 +37,7 @@ pub fn summary_json(
     let by_status = |of: &dyn Fn(Status) -> Value| -> Map<String, Value> {
         statuses().map(|status| (status.name().to_owned(), of(status))).collect()
     };
-    let [window, shifts] = corrections_json(case.corrections());
+    let [window, shifts, cut_off] = corrections_json(case.corrections());
     let mut summary = json!({
         "frfit": env!("CARGO_PKG_VERSION"),
         "title": case.title,
@@ -46,6 +46,7 @@ pub fn summary_json(
         "decay_per_s": case.model.decay_per_s(),
         "window": window,
         "frequency_shifts": shifts,
+        "cut_off": cut_off,
         "model": model_json(case),
         "sensors": (0..case.sensors.len()).map(|m| sensor(case, run, m)).collect::<Vec<_>>(),
         "identify": {
