@@ -18,7 +18,7 @@ pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
 
-    /// No progress bar and no words on success; warnings and findings are said
+    /// No progress bar, and no output on success except warnings and findings
     #[arg(long, global = true, display_order = LAST)]
     pub(crate) quiet: bool,
 
@@ -60,7 +60,7 @@ pub(crate) enum Command {
     #[command(
         after_help = "Example: frfit train case.toml --out model.frfit && frfit identify case.toml --reduced model.frfit --out results\n\n\
                       It serves every case with the same matrices, load and sensors: other specimens, temperatures, bounds, laws. Within the band and the \
-                      range of the unknowns that it was trained for no factorisation is needed; beyond them a run trains further."
+                      range of the unknowns in the training a run needs few or no factorisations; beyond them it trains further."
     )]
     Train(Train),
     /// Do many identifications by one plan, a table of cases and of the values that differ
@@ -78,7 +78,7 @@ pub(crate) enum Command {
     #[command(after_help = "Examples: frfit fit results/identified.csv\n          \
                       frfit fit dma.csv --law fractional,zener,maxwell:5 --out laws\n\n\
                       Columns: frequency_hz (or frequency, freq, f), storage (storage_modulus, E_stor), loss_factor (tan_delta) or \
-                      loss (loss_modulus, E_loss); storage_std and loss_factor_std, if they are known; status, of which only ok is used. \
+                      loss (loss_modulus, E_loss); storage_std and loss_factor_std, if they are known; status (only rows with status ok are used). \
                       A line of units below the names is understood.")]
     Fit(Fit),
     /// Make the HTML page of results again, as identify writes it
@@ -193,10 +193,10 @@ pub(crate) struct Frf {
     /// Length of a record (default: that of a recording with one impact, else up to the next impact)
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_negative_numbers = true)]
     pub(crate) length: Option<f64>,
-    /// Share of an impact that a second contact must reach to be called a double impact
+    /// Share of an impact that a second contact must reach to be called a double impact (default: 0.1)
     #[arg(long, value_name = "SHARE", value_parser = number, allow_negative_numbers = true)]
     pub(crate) double_impact: Option<f64>,
-    /// Share of a channel's largest value by which its mean may move
+    /// Share of a channel's largest value by which its mean may move (default: 0.05)
     #[arg(long, value_name = "SHARE", value_parser = number, allow_negative_numbers = true)]
     pub(crate) drift: Option<f64>,
     /// Force window: zero from so long after the trigger
@@ -248,7 +248,7 @@ pub(crate) struct Identify {
     /// Model at each frequency: full, subspace (reduced), or auto
     #[arg(long)]
     pub(crate) reduction: Option<String>,
-    /// Reduced model of frfit train, for the same matrices, load and sensors; within its band and its range of the unknowns no factorisation is needed
+    /// Reduced model of frfit train, for the same matrices, load and sensors; within its band and its range of the unknowns a run needs few or no factorisations
     #[arg(long, value_name = "FILE")]
     pub(crate) reduced: Option<PathBuf>,
     /// File for the reduced model as this run leaves it, for other runs
@@ -492,7 +492,7 @@ pub(crate) struct Sensitivities {
     /// Reduced model of frfit train, for the same matrices, load and sensors
     #[arg(long, value_name = "FILE")]
     pub(crate) reduced: Option<PathBuf>,
-    /// Standard deviation of a response over the response, such as 0.02 (default: as the files of all measurements say, else 0.01)
+    /// Relative standard deviation of a response, such as 0.02 (default: as the files of all measurements say, else 0.01)
     #[arg(long, value_name = "PART", value_parser = part, allow_negative_numbers = true)]
     pub(crate) noise: Option<f64>,
     /// Where the next sensor may go: all (translations), none, or a list such as 12+Z,55+Z or 41 (a row)
