@@ -21,9 +21,8 @@ def read_matrix(path: str | os.PathLike[str], name: str | None = None) -> Any:
     NumPy, MATLAB. A pattern has ones for values. Rows are in the order of the file: where files name their rows, and in
     different orders, :func:`run_case` brings them to one, and this function does not.
 
-    Compressed files (``.npz``, ``.mat``) are inflated no further than their headers declare. What dense arrays hold but
-    zeros may take 16 times the size of the file + 1 MB, the vectors of a sparse matrix 128 times + 1 MB; what takes more
-    is read where it is saved uncompressed.
+    frfit refuses a compressed file (``.npz``, ``.mat``) whose contents exceed a limit. The limit is 16 times the file size
+    + 1 MB for dense arrays, not counting zeros. It is 128 times + 1 MB for sparse ones. Save a larger file uncompressed.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ class OtherExplanation:
 
 @dataclass(frozen=True)
 class Number:
-    """A number that holds for the whole band."""
+    """A constant or a law parameter: one number for the whole band."""
 
     name: str
     """``storage``, ``loss_factor``, a parameter of a law; ``value`` of a real constant."""
@@ -77,7 +77,7 @@ class Number:
 
 @dataclass(frozen=True, repr=False)
 class Direction:
-    """A combination of the numbers that hold for the band, in their logarithms."""
+    """A combination of constants and law parameters, in their logarithms."""
 
     std: float
     """Standard deviation along it: 0.01 is one per cent; infinite where it is not identifiable."""
@@ -93,7 +93,7 @@ class Direction:
 class Estimate:
     """What was found of one unknown.
 
-    Arrays have f rows, one a frequency; an unknown that holds for the band has a value in each. Storage moduli, factors and
+    Arrays have f rows, one a frequency; a constant or a law has a value in each. Storage moduli, factors and
     corrections are in the unit of the factor (Pa, or 1).
     """
 
@@ -132,9 +132,9 @@ class Estimate:
     alternatives: tuple[Complex, ...]
     """f arrays: factors that the data cannot exclude beside the one that is given."""
     numbers: tuple[Number, ...]
-    """What holds for the whole band; empty where each frequency has a value of its own."""
+    """Constants and law parameters; empty where each frequency has a value of its own."""
     status: str | None
-    """Of what holds for the band, in the words of ``identified.csv``; at its bounds it is ``no_root``."""
+    """Status of a constant or law; ``no_root`` at its bounds."""
 
     @classmethod
     def _of(cls, found: dict[str, Any]) -> Estimate:
@@ -178,7 +178,7 @@ class Identification:
     frequency_hz: Real
     """(f,), Hz."""
     chi2: Real
-    """(f,), what the sensors leave unexplained over what noise leaves: about 1."""
+    """(f,), misfit per degree of freedom over the noise: about 1 for a right model."""
     error: Real
     """(f,), norm of the misfit over that of the measured responses."""
     spectral_radius: Real
@@ -233,11 +233,11 @@ class Identification:
     explained: str | None
     """Whether noise explains the residual: ``explained``, ``nearly explained``, ``not explained``, ``untested``."""
     is_trusted: bool
-    """Whether all that holds for the band is trusted and the measurements are not contradicted."""
+    """Whether all constants and law parameters are trusted and the measurements are not contradicted."""
     coordinates: tuple[str, ...]
     """What the rows of ``correlation`` stand for; in ``scale of measurement 1`` measurements are counted from 1."""
     correlation: Real
-    """(k, k), correlation of the k numbers that hold for the band."""
+    """(k, k), correlation of the k constants and law parameters."""
     directions: tuple[Direction, ...]
     """Combinations of them, the least identifiable first."""
     not_identifiable: tuple[str, ...]
@@ -472,7 +472,7 @@ class Identification:
 
         With ``kind="table"`` it has the :meth:`columns`, a row at each frequency. With ``"long"`` it has a row for each unknown
         and frequency, and all arrays of an :class:`Estimate`, also those that ``identified.csv`` does not have. With
-        ``"numbers"`` it has a row for each number that holds for the band.
+        ``"numbers"`` it has a row for each constant and law parameter.
         """
         kinds = ("table", "long", "numbers")
         one_of(kind, "kind", kinds)
@@ -534,8 +534,9 @@ class Identification:
     def plot(self, axes: Any = None, *, units: str | Mapping[str, str] | None = None) -> Any:
         """Storage modulus and loss factor of each unknown over frequency with bars of two standard deviations; needs matplotlib.
 
-        Trusted values are filled. Others are hollow, with the mark of their status, over a grey band. What holds for the band is a
-        line in a band of two standard deviations. The vertical axis spans the trusted and the nominal values: others may lie outside of it.
+        Trusted values are filled. Others are hollow, with the mark of their status, over a grey band. A constant or a law
+        is a line in a band of two standard deviations. The vertical axis spans the trusted and the nominal values: others may
+        lie outside of it.
         ``axes``: two to draw on for each complex unknown, one for each real one. ``units`` of the factors are for the labels: a
         text, or of several unknowns a dictionary by their names. Returns the axes.
         """

@@ -250,7 +250,7 @@ def sensitivities(
     band_hz
         First and last frequency, in place of the case file's.
     noise
-        Standard deviation of a response over the response; by default that of the files, else 0.01.
+        Relative standard deviation of a response; by default that of the files, else 0.01.
     candidates
         Where the next sensor may go: ``"all"``, ``"none"``, or degrees of freedom such as ``"12+Z"``, or rows. Rows count
         from 1 beside a case file and from 0 beside a model.
