@@ -1,6 +1,6 @@
 //! A root that is chosen, and confirmed by a fresh direct solve.
 
-use super::options::Options;
+use super::goodness_of_fit::MAX_ERROR;
 use super::outcome::Line;
 use crate::c64;
 use crate::response::{Response, relative_error};
@@ -14,7 +14,6 @@ pub(super) const SENSOR: usize = 0;
 pub(super) fn confirm(
     system: &impl Response,
     measured: &[c64],
-    options: &Options,
     correction: c64,
     outcome: &mut Line,
 ) -> Result<bool, Breakdown> {
@@ -24,7 +23,7 @@ pub(super) fn confirm(
     outcome.error = Some(relative_error(measured, &updated)).filter(|error| error.is_finite());
     outcome.updated_response = updated;
     // False for NaN too.
-    Ok(here <= options.error)
+    Ok(here <= MAX_ERROR)
 }
 
 /// The admissible root of least |c|, or failing that the one of least |c| within the bounds, as evidence.

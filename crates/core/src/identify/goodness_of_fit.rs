@@ -87,6 +87,10 @@ const MAX_NOISE_OVER_RESPONSE: f64 = 0.3;
 /// A thousandth of the response is as good as measured responses get: a smaller misfit is no reason to doubt anything.
 pub(super) const MIN_DOUBTFUL_MISFIT: f64 = 1e-3;
 
+/// Largest ε (P-40) of an answer for status `ok`, however small the noise: the error that the paper reports for a measurement
+/// at n = 30.
+pub(super) const MAX_ERROR: f64 = 1e-2;
+
 /// A misfit of a line of more standard deviations than this, root mean square over the sensors, is not noise.
 pub(super) const MAX_RMS_MISFIT: f64 = 5.0;
 

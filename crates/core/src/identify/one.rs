@@ -54,14 +54,13 @@ fn by_series(
     let radius = convergence_radius(system, 0)?;
     outcome.radius = Some(radius);
     let nominal = outcome.nominal();
-    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius, &unknown.roots());
+    refuse_diverged(&mut outcome.roots, &series, SENSOR, nominal, &radius);
     let Some(chosen) = choose(&outcome.roots) else {
         outcome.status = Status::NoRoot;
         return Ok(());
     };
     outcome.spectral_radius = Some(radius.at(chosen.correction));
-    let confirmed =
-        confirm(system, measured, options, chosen.correction, outcome)? && chosen.refusal.is_none();
+    let confirmed = confirm(system, measured, chosen.correction, outcome)? && chosen.refusal.is_none();
     outcome.status = match (confirmed, outcome.candidate_count()) {
         (false, _) => Status::Diverged,
         (true, 1) => Status::Ok,
@@ -79,7 +78,7 @@ fn by_search(
 ) -> Result<(), Breakdown> {
     outcome.nominal_response = system.respond_nominal()?;
     let found = nelder_mead::search(system, &measured[SENSOR..=SENSOR], options.order);
-    let matched = confirm(system, measured, options, found.correction, outcome)?;
+    let matched = confirm(system, measured, found.correction, outcome)?;
     outcome.status = if matched { Status::Ok } else { Status::Diverged };
     if unknown.bounds.broken_by(outcome.nominal() + found.correction).is_some() {
         outcome.forget_value(Status::NoRoot);

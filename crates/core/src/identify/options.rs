@@ -23,12 +23,6 @@ pub struct Options {
     pub selection: Selection,
     /// What answers at a frequency. Default automatic.
     pub reduction: Reduction,
-    /// Largest ε (P-40) at the sensor that gave the root, from a fresh direct solve, for status `ok`. Default 1e-2, the error
-    /// that the paper reports for a measurement at n = 30.
-    pub error: f64,
-    /// Largest relative error of the factor that the subspace may cause, by its own estimate, for status `ok`. Default 1e-5: the estimate is ten to a
-    /// hundred times what direct solves show.
-    pub certain: f64,
     /// Whether the factor is searched in all of the bounds, as for a nominal that is no more than their middle. Default false: in a factor of four to either side
     /// of the nominal first.
     pub whole_box: bool,
@@ -50,8 +44,6 @@ impl Default for Options {
             order: 30,
             selection: Selection::default(),
             reduction: Reduction::default(),
-            error: 1e-2,
-            certain: 1e-5,
             whole_box: false,
             reject_outliers: true,
             everywhere: false,
@@ -66,8 +58,6 @@ with_fields!(Options {
     with_order: order as usize,
     with_selection: selection as Selection,
     with_reduction: reduction as Reduction,
-    with_error: error as f64,
-    with_certain: certain as f64,
     with_whole_box: whole_box as bool,
     with_reject_outliers: reject_outliers as bool,
     with_model_errors: model_errors as ModelErrors,
@@ -160,8 +150,6 @@ pub const MAX_ORDER: usize = 200;
 pub enum OptionsError {
     /// Order 0, or above [`MAX_ORDER`].
     Order(usize),
-    /// An error limit that is not positive.
-    Error(f64),
     /// A standard deviation of errors of the model, by its name, that is not positive or is too large.
     ErrorSize(&'static str, f64),
     /// A joint selection with a method that offers nothing to select from.
@@ -172,7 +160,6 @@ impl fmt::Display for OptionsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Order(order) => write!(f, "order: expected 1 to {MAX_ORDER}, found {order}"),
-            Self::Error(error) => write!(f, "error: expected a positive number, found {error}"),
             Self::ErrorSize(name, size) => {
                 write!(
                     f,
@@ -202,9 +189,6 @@ impl Options {
     pub fn validate(&self) -> Result<(), OptionsError> {
         if !(1..=MAX_ORDER).contains(&self.order) {
             return Err(OptionsError::Order(self.order));
-        }
-        if self.error <= 0.0 || self.error.is_nan() {
-            return Err(OptionsError::Error(self.error));
         }
         self.model_errors.sizes().validate()?;
         if self.selection == Selection::Joint && self.method != Method::Rational {
@@ -246,6 +230,5 @@ mod tests {
             Options { model_errors, ..Options::default() }.validate().unwrap_err().to_string(),
             "model_error.frequency: expected a number above 0 up to 0.5, found 0"
         );
-        assert!(Options { error: f64::NAN, ..Options::default() }.validate().is_err());
     }
 }

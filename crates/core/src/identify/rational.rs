@@ -58,7 +58,7 @@ pub(super) fn by_rational(
         return Ok(());
     };
     outcome.spectral_radius = Some(radius.at(chosen.correction));
-    let confirmed = confirm(system, measured, options, chosen.correction, outcome)?;
+    let confirmed = confirm(system, measured, chosen.correction, outcome)?;
     outcome.status = match (confirmed && chosen.refusal.is_none(), outcome.candidate_count()) {
         (false, _) => Status::Failed,
         (true, 1) if !unsure(&outcome.roots) => Status::Ok,

@@ -167,7 +167,7 @@ impl Unknown {
 
     /// How its roots are accepted.
     pub(super) fn roots(&self) -> RootOptions {
-        RootOptions { bounds: self.bounds, real: self.real, ..RootOptions::default() }
+        RootOptions { bounds: self.bounds, real: self.real }
     }
 
     /// [low, high] of the real part in which it is searched about a nominal value, beside other unknowns.

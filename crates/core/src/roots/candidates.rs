@@ -7,7 +7,7 @@ use crate::with_fields::with_fields;
 use frfit_linalg::dense::{Root, evaluate, roots};
 
 /// How roots are accepted.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct RootOptions {
     /// Bounds on the updated factor.
@@ -15,22 +15,9 @@ pub struct RootOptions {
     /// Whether the parameter is known to be real: roots with an imaginary part are refused, and that of the
     /// others is dropped.
     pub real: bool,
-    /// Largest change of a root over the last orders, relative to the updated factor. Default 1e-2: the paper's
-    /// measured bar (ρ = 0.82 at n = 30) has 0.6 % left, ghosts on the circle of convergence move by some percent.
-    pub drift: f64,
 }
 
-impl Default for RootOptions {
-    fn default() -> Self {
-        Self { bounds: Bounds::default(), real: false, drift: 1e-2 }
-    }
-}
-
-with_fields!(RootOptions {
-    with_bounds: bounds as Bounds,
-    with_real: real as bool,
-    with_drift: drift as f64,
-});
+with_fields!(RootOptions { with_bounds: bounds as Bounds });
 
 impl RootOptions {
     /// What the user knows that speaks against a correction: it is not real, or breaks a bound.
@@ -76,6 +63,10 @@ pub struct Candidate {
 /// Orders below n in which a root must reappear. Ghosts on the circle of convergence lie 2π/n apart and move by
 /// about 2π/n² an order: over four orders that is more than the tolerance where over one it is not.
 const LOOK_BACK_ORDERS: usize = 4;
+
+/// Largest change of a root over the last orders, relative to the updated factor: the paper's measured bar (ρ = 0.82 at
+/// n = 30) has 0.6 % left, ghosts on the circle of convergence move by some percent.
+const MAX_DRIFT: f64 = 1e-2;
 
 /// Roots are double-precision numbers of a polynomial known to roundoff: beyond this it is no root.
 const MAX_BACKWARD_ERROR: f64 = 1e-10;
@@ -130,7 +121,6 @@ pub fn refuse_diverged(
     sensor: usize,
     nominal: c64,
     radius: &ConvergenceRadius,
-    options: &RootOptions,
 ) {
     let t = series.coefficients(sensor);
     let slope: Vec<c64> = t.iter().enumerate().skip(1).map(|(k, &t)| t * k as f64).collect();
@@ -143,7 +133,7 @@ pub fn refuse_diverged(
         let relative = moved * series.scale() / (nominal + candidate.correction).norm();
         candidate.drift = candidate.drift.max(relative);
         // False for NaN too.
-        let stays = rho < 1.0 && relative <= options.drift;
+        let stays = rho < 1.0 && relative <= MAX_DRIFT;
         if !stays {
             candidate.refusal = Some(Refusal::Moves);
         }
@@ -180,6 +170,6 @@ fn refuse(root: Root, candidate: &Candidate, nominal: c64, options: &RootOptions
     if let Some(refusal) = options.refuse(nominal, candidate.correction) {
         return Some(refusal);
     }
-    let stays = candidate.drift <= options.drift;
+    let stays = candidate.drift <= MAX_DRIFT;
     (!stays).then_some(Refusal::Moves)
 }

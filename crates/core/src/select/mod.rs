@@ -62,21 +62,18 @@ pub struct SelectOptions {
     /// Whether σ_m is known. Default true; what the best misfits have above it is then taken for error of the model. Otherwise σ_m is known
     /// up to a factor for the band and not below 1e-6 of what is given, such as the size of the response.
     pub sigma_known: bool,
-    /// Nats within which another node is an alternative. Default 7: odds of a thousand to one.
-    pub margin: f64,
 }
 
 impl Default for SelectOptions {
     fn default() -> Self {
-        Self { sensors: 1, sigma_known: true, margin: 7.0 }
+        Self { sensors: 1, sigma_known: true }
     }
 }
 
-with_fields!(SelectOptions {
-    with_sensors: sensors as usize,
-    with_sigma_known: sigma_known as bool,
-    with_margin: margin as f64,
-});
+with_fields!(SelectOptions { with_sensors: sensors as usize, with_sigma_known: sigma_known as bool });
+
+/// Nats within which another node is an alternative: odds of a thousand to one.
+const RIVAL_NATS: f64 = 7.0;
 
 /// Chooses a path through the candidates of a band; frequencies ascend, and each has any number of nodes, also none.
 ///
@@ -110,7 +107,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
     let nothing = Choice { chosen: None, rivals: Vec::new(), margin: f64::INFINITY };
     let band = Band::likeliest(scatters.len(), nodes.len(), band);
     let can_agree = options.sensors > 1 && noise.is_all();
-    let agreed = if can_agree { agreement(&band, options.margin) } else { None };
+    let agreed = if can_agree { agreement(&band) } else { None };
     let agreed = agreed.map(|agreed| -> Vec<Choice> {
         let of = |points: &[Point], (index, margin): (usize, f64)| Choice {
             chosen: Some(points[index].node),
@@ -120,11 +117,11 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         let each = band.points.iter().zip(agreed);
         each.map(|(points, one)| one.map_or_else(|| nothing.clone(), |one| of(points, one))).collect()
     });
-    let tracks = tracks(band.clone(), options.margin);
+    let tracks = tracks(band.clone());
     let Some((best, rivals)) = tracks.split_first() else {
         return agreed.unwrap_or_else(|| vec![nothing; nodes.len()]);
     };
-    let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + options.margin).collect();
+    let rivals: Vec<_> = rivals.iter().filter(|rival| rival.score < best.score + RIVAL_NATS).collect();
     let curvature = best.restricted().curvature();
     let (mut path, costs) = best.band.through_each(curvature);
     bridge(&mut path, &best.chosen);
@@ -148,7 +145,7 @@ pub fn choose(frequency_hz: &[f64], nodes: &[Vec<Node>], options: &SelectOptions
         let rivals = rivals.iter().filter_map(|rival| Some((rival.at(k)?, rival.score - best.score)));
         for (other, margin) in others.chain(rivals).filter(|(other, _)| !other.is(&points[index])) {
             choice.margin = choice.margin.min(margin);
-            if margin < options.margin && !choice.rivals.contains(&other.node) {
+            if margin < RIVAL_NATS && !choice.rivals.contains(&other.node) {
                 choice.rivals.push(other.node);
             }
         }

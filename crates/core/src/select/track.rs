@@ -1,5 +1,6 @@
 //! Whole paths that compete with one another.
 
+use super::RIVAL_NATS;
 use super::band::{Band, DEFAULT_CURVATURE};
 use super::path::{Path, Point};
 
@@ -54,7 +55,7 @@ impl Track {
 
 /// The cheapest path, the cheapest without its points, and so on, best score first; those among them that are better than no path at all by
 /// some nats.
-pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
+pub(super) fn tracks(mut band: Band) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     let occupied = band.occupied() as f64;
     for _ in 0..MAX_RIVAL_PATHS {
@@ -70,7 +71,7 @@ pub(super) fn tracks(mut band: Band, margin: f64) -> Vec<Track> {
         let track = Track { score: material + misfit + missing, band: band.clone(), chosen };
         band.points.iter_mut().enumerate().for_each(|(k, points)| track.take_from(k, points));
         // Not the misfit, which where the model has errors of its own is larger than usual for the right path too.
-        let is_excluded = |nats: f64| nats >= COVERAGE_NATS - margin;
+        let is_excluded = |nats: f64| nats >= COVERAGE_NATS - RIVAL_NATS;
         if is_excluded(material) {
             // A smaller curvature must not lead a material's path onto it.
             tracks.iter_mut().for_each(|other| other.lose(&track));

@@ -27,9 +27,9 @@ pub struct TrainOptions {
     /// Largest estimated error ([`super::Assessment::relative_truncation`]) to accept. Default 1e-9.
     pub tolerance: f64,
     /// Solves after which to give up, beside those that brought missing modes and four for each of these. Default 400.
-    pub solves: usize,
+    pub(crate) solves: usize,
     /// Real factorisations at most. Default 4.
-    pub factorisations: usize,
+    pub(crate) factorisations: usize,
 }
 
 impl Default for TrainOptions {
@@ -38,11 +38,7 @@ impl Default for TrainOptions {
     }
 }
 
-with_fields!(TrainOptions {
-    with_tolerance: tolerance as f64,
-    with_solves: solves as usize,
-    with_factorisations: factorisations as usize,
-});
+with_fields!(TrainOptions { with_tolerance: tolerance as f64 });
 
 /// How a training ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,21 +16,18 @@ pub struct ChangeOptions {
     pub tolerance: f64,
     /// Largest estimated error of response and derivatives everywhere ([`Changed::everywhere`]) to accept; `None` (default): it does not matter.
     pub everywhere: Option<f64>,
-    /// Solves after which to give up. Default 600.
-    pub solves: usize,
 }
 
 impl Default for ChangeOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-6, everywhere: None, solves: 600 }
+        Self { tolerance: 1e-6, everywhere: None }
     }
 }
 
-with_fields!(ChangeOptions {
-    with_tolerance: tolerance as f64,
-    with_everywhere: everywhere as Option<f64>,
-    with_solves: solves as usize,
-});
+with_fields!(ChangeOptions { with_tolerance: tolerance as f64, with_everywhere: everywhere as Option<f64> });
+
+/// Solves after which to give up.
+const MAX_SOLVES: usize = 600;
 
 /// Errors of the response that are asked for in turn: those of derivatives are products of a residual of the response and one of its derivative, which
 /// the basis need not have.
@@ -51,7 +48,7 @@ impl<'m> Subspace<'m> {
             points.iter().map(|p| Point { at: p.at.clone(), correction: c64::default() }).collect();
         let mut trained = Trained { error: f64::INFINITY, converged: false };
         for tolerance in RESPONSE_TOLS {
-            let train = TrainOptions { tolerance, solves: options.solves, ..TrainOptions::default() };
+            let train = TrainOptions { tolerance, solves: MAX_SOLVES, ..TrainOptions::default() };
             let response = self.train(&plain, &train, for_each)?;
             let error = self.worst(points, for_each, Changed::relative_truncation);
             trained = Trained { error, converged: error <= options.tolerance };
@@ -60,7 +57,7 @@ impl<'m> Subspace<'m> {
             }
         }
         if let Some(everywhere) = options.everywhere {
-            self.train_everywhere(points, everywhere, options.solves, for_each)?;
+            self.train_everywhere(points, everywhere, for_each)?;
             let error = self.worst(points, for_each, Changed::relative_truncation);
             trained = Trained { error, converged: error <= options.tolerance };
         }
@@ -83,7 +80,6 @@ impl<'m> Subspace<'m> {
         &mut self,
         points: &[ChangePoint<'m>],
         tolerance: f64,
-        solves: usize,
         for_each: ForEach<'_>,
     ) -> Result<(), Breakdown> {
         let (mut best, mut stalled) = (f64::INFINITY, 0);
@@ -101,7 +97,7 @@ impl<'m> Subspace<'m> {
             stalled = if worst < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(worst);
             if stalled > MAX_STALLED_ROUNDS
-                || self.work().solves >= solves
+                || self.work().solves >= MAX_SOLVES
                 || self.grow(points, &errors)? == 0
             {
                 return Ok(());

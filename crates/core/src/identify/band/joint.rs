@@ -80,7 +80,7 @@ pub(super) fn identify<'a>(
             second: second.unwrap_or(f64::INFINITY),
             poles: poles.as_deref(),
         };
-        verdict(&evidence, &found[i], &choices[i], options)
+        verdict(&evidence, &found[i], &choices[i])
     });
     if let Some(reduced) = &reduced {
         work += reduced.work();

@@ -8,7 +8,7 @@ use super::channels::{Begin, Responded, at_scales};
 use super::corrected::{Weights, correct, on_corrected, point};
 use super::joint;
 use super::law_fitting::Fitting;
-use super::neighbourhoods::{Neighbourhoods, reduction_error};
+use super::neighbourhoods::{MAX_REDUCTION_ERROR, Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;
 use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
@@ -19,7 +19,7 @@ use crate::identify::channel::{Calibrated, Calibration, Channel, ChannelUnknowns
 use crate::identify::channel_coordinates::ChannelCoordinates;
 use crate::identify::context::{Context, Stage};
 use crate::identify::form::Form;
-use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_RMS_MISFIT, judge};
+use crate::identify::goodness_of_fit::{Explained, GoodnessOfFit, MAX_ERROR, MAX_RMS_MISFIT, judge};
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{
     Curve, Curves, Estimated, Split, averaged_over_small_errors, estimate_beside_a_smooth_modulus,
@@ -78,7 +78,7 @@ pub(super) const RIVAL_DISTANCE_STD: f64 = 3.0;
 /// Fits laws to a band, and takes the one of least BIC.
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say: on the full model every step would take a factorisation at each frequency. Statuses
-/// are those of the law at each frequency: `no_root` without a value where it breaks the bounds; `unexplained` where it leaves more than noise and `options.error`, or
+/// are those of the law at each frequency: `no_root` without a value where it breaks the bounds; `unexplained` where it leaves more than noise and an error of 1 % ([`MAX_ERROR`]), or
 /// [`LawsOutcome::fit`] says "not explained"; `ambiguous` where another minimum that cannot be excluded has another modulus; `not_identifiable` where the standard deviation is half the
 /// modulus; `failed` where the search did not converge or the reduced model is not good enough.
 ///
@@ -534,7 +534,7 @@ impl Fitting<'_, '_> {
         };
         let rivals = law.rivals_at(self.band.frequency_hz[i]).into_iter().filter(apart);
         line.rivals = rivals.map(|rival| vec![rival]).collect();
-        let unexplained = error > self.options.error && rms > MAX_RMS_MISFIT * noise;
+        let unexplained = error > MAX_ERROR && rms > MAX_RMS_MISFIT * noise;
         let known = std.is_some_and(|std| std <= MAX_RELATIVE_MODULUS_STD * size);
         line.on_path = true;
         line.status = Status::of([
@@ -542,7 +542,7 @@ impl Fitting<'_, '_> {
             (!line.rivals.is_empty(), Status::Ambiguous),
             (!law.converged, Status::Failed),
             (!known, Status::NotIdentifiable),
-            (certified.factor > self.options.certain, Status::Failed),
+            (certified.factor > MAX_REDUCTION_ERROR, Status::Failed),
         ]);
         if self.band.unknown.bounds.broken_by(estimate.modulus).is_some() {
             line.forget_value(Status::NoRoot);

@@ -30,8 +30,8 @@ pub(super) use initial_calibration::by_shape;
 pub(crate) use initial_calibration::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
 pub(super) use laws::{LawsOutcome, MAX_TRAINING_ROUNDS, identify_laws, law_through, nearest};
 pub(super) use neighbourhoods::{
-    BOX_TOL, MAX_NEIGHBOURHOODS, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES, TRAINED_TOL, is_certain,
-    reduction_error, train,
+    BOX_TOL, MAX_NEIGHBOURHOODS, MAX_REDUCTION_ERROR, MAX_TRAINING_FREQUENCIES, MIN_NEIGHBOURHOOD_LINES,
+    TRAINED_TOL, is_certain, reduction_error, train,
 };
 pub(super) use outcome::BandOutcome;
 pub(super) use outlier_sensor::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};

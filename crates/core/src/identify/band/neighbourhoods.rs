@@ -454,6 +454,10 @@ pub(in crate::identify) struct ReductionError {
     pub(super) factor: f64,
 }
 
+/// Largest relative error of the factor that the subspace may cause, by its own estimate, for status `ok`: the estimate is ten
+/// to a hundred times what direct solves show.
+pub(in crate::identify) const MAX_REDUCTION_ERROR: f64 = 1e-5;
+
 pub(in crate::identify) fn reduction_error(
     assessed: &Assessment,
     factor: c64,

@@ -1,6 +1,6 @@
 //! Each frequency alone, on the full model or on the subspace.
 
-use super::neighbourhoods::{Neighbourhoods, reduction_error};
+use super::neighbourhoods::{MAX_REDUCTION_ERROR, Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;
 use crate::for_each::map;
 use crate::identify::context::{Context, Stage};
@@ -46,7 +46,7 @@ pub(super) fn identify(
                         assessed.map(|a| reduction_error(&a, line.nominal() + correction, &band.measured[i]));
                     line.reduction_error =
                         certified.map(|certified| certified.response).filter(|c| c.is_finite());
-                    if line.status == Status::Ok && certified.is_none_or(|c| c.factor > options.certain) {
+                    if line.status == Status::Ok && certified.is_none_or(|c| c.factor > MAX_REDUCTION_ERROR) {
                         line.status = Status::Failed;
                     }
                 }

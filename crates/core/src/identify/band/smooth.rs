@@ -11,7 +11,7 @@ use super::corrected::correct;
 use super::fit::sensor_misfit;
 use super::joint;
 use super::laws::{MAX_TRAINING_ROUNDS, RIVAL_DISTANCE_STD, START_SHIFTS};
-use super::neighbourhoods::{Neighbourhoods, reduction_error};
+use super::neighbourhoods::{MAX_REDUCTION_ERROR, Neighbourhoods, reduction_error};
 use super::outcome::BandOutcome;
 use super::scaled::Scaled;
 use super::search_box::{near_or_far, on_subspace};
@@ -20,7 +20,7 @@ use crate::for_each::map;
 use crate::frequency::omega_rad_s;
 use crate::frfs::{Noise, standard_deviations};
 use crate::identify::context::{Context, Stage};
-use crate::identify::goodness_of_fit::{MAX_RMS_MISFIT, SensorFit, judge};
+use crate::identify::goodness_of_fit::{MAX_ERROR, MAX_RMS_MISFIT, SensorFit, judge};
 use crate::identify::measured::Band;
 use crate::identify::model_errors::{Estimated, Split};
 use crate::identify::noise::{MIN_NOISE_LEVEL, NoiseLevel, NoiseSource, without};
@@ -80,7 +80,7 @@ const MAX_OUTLIER_SHARE: f64 = 0.25;
 ///
 /// The selection is joint, and what answers is the subspace, whatever the options say. Statuses are those of a single frequency ([`super::identify_band`]), judged at the
 /// smooth modulus and its error bars: `ambiguous` is where the path that it follows was; `no_root` where the modulus breaks the bounds; `unexplained` where it leaves more
-/// than noise and `options.error`: this frequency has no influence on the others.
+/// than noise and an error of 1 % ([`MAX_ERROR`]): this frequency has no influence on the others.
 ///
 /// # Errors
 /// [`OutsideTable`] where a table does not reach a frequency.
@@ -110,7 +110,7 @@ pub(in crate::identify) fn identify_smooth<'a>(
     let assumed = standard_deviations(band.frequency_hz, band.measured, band.noise);
     let out = free.left_out();
     let sigma = without(&assumed, &out);
-    let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, options, context };
+    let smoothing = Smoothing { band, at: &at, sigma: &sigma, out: &out, context };
     (context.progress)(Stage::Law, 0, 1);
     let found = reduced.and_then(|mut reduced| Some((smoothing.fit(&mut reduced, &free)?, reduced)));
     (context.progress)(Stage::Law, 1, 1);
@@ -157,7 +157,6 @@ struct Smoothing<'t, 'a> {
     sigma: &'t [Vec<f64>],
     /// Sensors that are left out.
     out: &'t [usize],
-    options: &'t Options,
     context: Context<'t>,
 }
 
@@ -377,7 +376,7 @@ impl Smoothing<'_, '_> {
 
     fn is_beyond_noise(&self, i: usize, x: &[c64], level: f64) -> bool {
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
-        relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > self.options.error
+        relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > MAX_ERROR
             && rms > MAX_RMS_MISFIT * level
     }
 
@@ -460,7 +459,7 @@ impl Smoothing<'_, '_> {
             (ambiguous, Status::Ambiguous),
             (!fitted.converged, Status::Failed),
             (!bars.is_known(factor) || !bars.is_linear(), Status::NotIdentifiable),
-            (certified.factor > self.options.certain, Status::Failed),
+            (certified.factor > MAX_REDUCTION_ERROR, Status::Failed),
         ]);
         line.updated_response = assessed.response;
         if self.band.unknown.bounds.broken_by(factor).is_some() {

@@ -98,11 +98,7 @@ impl Task<'_, '_> {
             .zip(found)
             .map(|(&i, found)| nodes(found, self.at[i].parameters[0].nominal))
             .collect();
-        let options = SelectOptions {
-            sensors: self.sensors,
-            sigma_known: self.band.noise.is_known(),
-            ..SelectOptions::default()
-        };
+        let options = SelectOptions { sensors: self.sensors, sigma_known: self.band.noise.is_known() };
         let choices = choose(&frequency_hz, &nodes, &options);
         let level = of_sensors(&nodes, &choices, self.freedom());
         let level = level.map(|level| if options.sigma_known { 1.0 } else { level });

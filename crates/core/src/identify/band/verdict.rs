@@ -1,10 +1,9 @@
 //! From the choice at a frequency to its line.
 
 use super::candidates::Candidates;
-use super::neighbourhoods::reduction_error;
+use super::neighbourhoods::{MAX_REDUCTION_ERROR, reduction_error};
 use crate::c64;
-use crate::identify::goodness_of_fit::MAX_RMS_MISFIT;
-use crate::identify::options::Options;
+use crate::identify::goodness_of_fit::{MAX_ERROR, MAX_RMS_MISFIT};
 use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
 use crate::model::ModelAt;
@@ -36,12 +35,7 @@ pub(super) struct Evidence<'a> {
     pub(super) assessment: Option<Assessment>,
 }
 
-pub(super) fn verdict(
-    evidence: &Evidence<'_>,
-    found: &Candidates,
-    choice: &Choice,
-    options: &Options,
-) -> Line {
+pub(super) fn verdict(evidence: &Evidence<'_>, found: &Candidates, choice: &Choice) -> Line {
     let nominal = evidence.at.parameters[0].nominal;
     let mut line = Line::unknown(evidence.at.frequency_hz, nominal, found.order);
     line.nominal_response = found.nominal_response.clone();
@@ -81,14 +75,14 @@ pub(super) fn verdict(
     line.reduction_error = certified.map(|certified| certified.response).filter(|c| c.is_finite());
     let noise = evidence.noise.unwrap_or(0.0);
     let square = chosen.misfit / evidence.freedom.max(1) as f64;
-    let unexplained = error > options.error && square.sqrt() > MAX_RMS_MISFIT * noise;
+    let unexplained = error > MAX_ERROR && square.sqrt() > MAX_RMS_MISFIT * noise;
     let per_freedom = evidence.noise.filter(|_| evidence.freedom > 0).map(|noise| square / (noise * noise));
     line.chi_squared = per_freedom.filter(|chi_squared| chi_squared.is_finite());
     let bars = |level| Uncertainty::new(factor, evidence.is_real, chosen.std, evidence.second, level);
     let uncertainty = evidence.noise.map(bars);
     let unknown = uncertainty.is_some_and(|bars| !bars.is_known(factor) || !bars.is_linear());
     line.values[0].uncertainty = uncertainty.filter(|bars| bars.correction_std.is_finite());
-    let uncertain = certified.is_some_and(|certified| certified.factor > options.certain);
+    let uncertain = certified.is_some_and(|certified| certified.factor > MAX_REDUCTION_ERROR);
     line.status = Status::of([
         (unexplained, Status::Unexplained),
         (!line.rivals.is_empty(), Status::Ambiguous),

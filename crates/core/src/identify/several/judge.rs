@@ -10,9 +10,9 @@ use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
 use crate::for_each::map;
 use crate::frfs::Noise;
-use crate::identify::band::reduction_error;
+use crate::identify::band::{MAX_REDUCTION_ERROR, reduction_error};
 use crate::identify::channel::ChannelNumber;
-use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_RMS_MISFIT, judge};
+use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_ERROR, MAX_RMS_MISFIT, judge};
 use crate::identify::local_fit::of_responses;
 use crate::identify::model_errors::{Estimated, Split};
 use crate::identify::noise::NoiseLevel;
@@ -292,8 +292,7 @@ impl Task<'_, '_> {
             |(one, value): (&Unknown, &c64)| !one.is_curve() || one.bounds.broken_by(*value).is_none();
         let within = self.problem.unknowns.iter().zip(&solution.values).all(is_within);
         let known = self.problem.unknowns.iter().zip(&values).all(own);
-        let unexplained =
-            error > self.options.error && chi_squared.is_none_or(|chi| chi.sqrt() > MAX_RMS_MISFIT);
+        let unexplained = error > MAX_ERROR && chi_squared.is_none_or(|chi| chi.sqrt() > MAX_RMS_MISFIT);
         line.status = Status::of([
             (unexplained, Status::Unexplained),
             (!line.rivals.is_empty(), Status::Ambiguous),
@@ -301,7 +300,7 @@ impl Task<'_, '_> {
             (!known, Status::NotIdentifiable),
             (!within, Status::NoRoot),
             (
-                reduction_error.is_none_or(|reduction_error| reduction_error > self.options.certain),
+                reduction_error.is_none_or(|reduction_error| reduction_error > MAX_REDUCTION_ERROR),
                 Status::Failed,
             ),
         ])

@@ -32,7 +32,6 @@ impl Task<'_, '_> {
         let options = SelectOptions {
             sensors: self.problem.experiment.sensors.len() - self.left_out.len(),
             sigma_known: self.problem.frfs.noise.is_known(),
-            ..SelectOptions::default()
         };
         let frequency_hz: Vec<f64> = which.iter().map(|&i| self.problem.frfs.frequency_hz[i]).collect();
         let stds: Vec<Vec<Vec<f64>>> = solutions
