@@ -93,20 +93,8 @@ pub(super) fn identify<'a>(
         left_out: out.contains(&m),
     };
     let sensors = (0..sensors).map(sensor).collect();
-    BandOutcome {
-        lines,
-        work,
-        subspace_size: reduced.as_ref().map(|reduced| reduced.size()),
-        explored,
-        noise,
-        fit,
-        sensors,
-        model_errors: None,
-        small_errors: None,
-        leverage: Vec::new(),
-        other_model: false,
-        about: None,
-    }
+    let subspace_size = reduced.as_ref().map(|reduced| reduced.size());
+    BandOutcome { noise, fit, sensors, ..BandOutcome::of_lines(lines, work, subspace_size, explored) }
 }
 
 /// At how many of some frequencies over the whole band one of the solutions is chosen.

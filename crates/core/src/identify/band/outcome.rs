@@ -38,6 +38,29 @@ pub(in crate::identify) struct BandOutcome {
 }
 
 impl BandOutcome {
+    /// Lines, and what it took to find them: nothing is known of the band as a whole.
+    pub(super) fn of_lines(
+        lines: Vec<Line>,
+        work: Work,
+        subspace_size: Option<usize>,
+        explored: usize,
+    ) -> Self {
+        Self {
+            lines,
+            work,
+            subspace_size,
+            explored,
+            noise: NoiseLevel::UNKNOWN,
+            fit: None,
+            sensors: Vec::new(),
+            model_errors: None,
+            small_errors: None,
+            leverage: Vec::new(),
+            other_model: false,
+            about: None,
+        }
+    }
+
     /// How many frequencies have an answer.
     pub(super) fn answered(&self) -> usize {
         self.lines.iter().filter(|line| line.on_path).count()

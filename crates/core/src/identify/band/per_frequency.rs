@@ -5,7 +5,6 @@ use super::outcome::BandOutcome;
 use crate::for_each::map;
 use crate::identify::context::{Context, Stage};
 use crate::identify::measured::Band;
-use crate::identify::noise::NoiseLevel;
 use crate::identify::one::identify_at;
 use crate::identify::options::Options;
 use crate::identify::outcome::{Line, Status};
@@ -52,20 +51,7 @@ pub(super) fn identify(
                 }
                 line
             });
-            BandOutcome {
-                explored: at.len(),
-                lines: lines.collect(),
-                work: reduced.work(),
-                subspace_size: Some(reduced.size()),
-                noise: NoiseLevel::UNKNOWN,
-                fit: None,
-                sensors: Vec::new(),
-                model_errors: None,
-                small_errors: None,
-                leverage: Vec::new(),
-                other_model: false,
-                about: None,
-            }
+            BandOutcome::of_lines(lines.collect(), reduced.work(), Some(reduced.size()), at.len())
         }
         None => {
             let done = AtomicUsize::new(0);
@@ -79,20 +65,7 @@ pub(super) fn identify(
             });
             let mut work = Work::default();
             lines.iter().for_each(|line| work += line.work);
-            BandOutcome {
-                lines,
-                work,
-                subspace_size: None,
-                explored: at.len(),
-                noise: NoiseLevel::UNKNOWN,
-                fit: None,
-                sensors: Vec::new(),
-                model_errors: None,
-                small_errors: None,
-                leverage: Vec::new(),
-                other_model: false,
-                about: None,
-            }
+            BandOutcome::of_lines(lines, work, None, at.len())
         }
     }
 }
