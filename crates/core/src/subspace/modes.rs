@@ -213,24 +213,8 @@ impl Projection {
         };
         let of_ground: Vec<f64> = of_stiffness.iter().enumerate().map(ground).collect();
         let mass_part = of_mass.iter().copied().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let mut modes = Modes {
-            omega_rad_s: Vec::new(),
-            shapes: Vec::new(),
-            momenta: Vec::new(),
-            mass: of_mass,
-            of_error: Vec::new(),
-            partner: Vec::new(),
-            group: Vec::new(),
-            energy_shares: Vec::new(),
-            unknown_shares: Vec::new(),
-            share: Vec::new(),
-            stiffness: (0..theta.len()).map(|_| Vec::new()).collect(),
-            directions: self.sensors.clone(),
-            mass_part,
-            apparent_mass: Vec::new(),
-            load: Vec::new(),
-            sensors: vec![Vec::new(); self.sensors.len()],
-        };
+        let directions = self.sensors.clone();
+        let mut modes = Modes { mass: of_mass, directions, mass_part, ..Modes::none(self) };
         for k in (0..r).rev().take(most) {
             if mu[k] <= MASSLESS_RATIO * greatest {
                 break;
