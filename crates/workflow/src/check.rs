@@ -84,21 +84,18 @@ pub fn check_loaded(mut case: Case, memory_bytes: Option<u64>) -> Result<CheckJo
     let Some(wanted) = &case.identify else {
         return Err(InputError::at(&Place::option("case"), "something to identify", "none").into());
     };
-    let diagnosis = check(&case, wanted)?;
+    let used = Used::of(wanted);
+    let problem = problem_of(&case, wanted, &used)?;
+    let mut reduced = reduced_of(&case, wanted, &problem)?;
+    let diagnosis = check_on(&mut reduced, Depth::Full, &problem, &case, wanted)?;
     Ok(CheckJob { case, diagnosis })
 }
 
-/// Looks for what is wrong with a case's data, on all cores; the result does not depend on their number.
+/// Looks for what is wrong with a case's data, as far as is asked, on the reduced model with which the case is identified. It runs on all cores; the result does not depend on
+/// their number.
 ///
 /// # Errors
 /// [`ProblemError`] where the case has a fault that was not seen when it was loaded.
-pub fn check(case: &Case, identify: &IdentifyCase) -> Result<Diagnosis, ProblemError> {
-    let used = Used::of(identify);
-    let problem = problem_of(case, identify, &used)?;
-    check_on(&mut reduced_of(case, identify, &problem)?, Depth::Full, &problem, case, identify)
-}
-
-/// The same on the reduced model with which the case is identified, as far as is asked.
 pub(crate) fn check_on<'a>(
     reduced: &mut ReducedBand<'a>,
     depth: Depth,

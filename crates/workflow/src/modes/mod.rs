@@ -15,7 +15,7 @@ mod summary;
 mod table;
 
 use run::modes_of;
-pub use run::{ModesOptions, ModesRun, modes};
+pub use run::{ModesOptions, ModesRun};
 
 use crate::error::{InputError, Place};
 use crate::figures::modes_figures;
@@ -94,10 +94,14 @@ pub fn modes_case(
 ///
 /// # Errors
 /// As [`modes_case`], but for what is written.
+///
+/// # Panics
+/// Where the case was loaded for something else.
 pub fn modes_loaded(case: Case, place: &Place, options: &ModesOptions) -> Result<ModesJob, JobError> {
     // Undamped modes are found with a factor of their own, and counted: single precision might count wrong.
     check_subspace(&case, 2, options.memory_bytes)?;
-    let run = modes(&case, options).map_err(|error| {
+    let wanted = case.modes.as_ref().expect("a case that was loaded for its modes");
+    let run = modes_of(&case, wanted, options).map_err(|error| {
         let expected = match error {
             NaturalModesError::Undamped(ModesError::NotConverged { .. }) => {
                 "a band that ends where the model still has modes (--band sets its end)"

@@ -90,18 +90,10 @@ const BEYOND_BAND: f64 = 1.4;
 const RESPONSE_TOL: f64 = 1e-5;
 const TRAINING_FREQUENCIES: usize = 40;
 
-/// Modes of the model at its factors, and of the measurements that there are.
+/// Modes of the model at its factors, and of the measurements that are wanted of a case.
 ///
 /// # Errors
 /// [`NaturalModesError`] where the model has no modes that can be found.
-///
-/// # Panics
-/// Where the case was loaded for something else.
-pub fn modes(case: &Case, options: &ModesOptions) -> Result<ModesRun, NaturalModesError> {
-    modes_of(case, case.modes.as_ref().expect("a case that was loaded for its modes"), options)
-}
-
-/// The same of what is wanted of a case.
 pub(super) fn modes_of(
     case: &Case,
     wanted: &ModesCase,

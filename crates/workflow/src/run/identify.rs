@@ -72,22 +72,10 @@ fn map_columns(dofs: usize) -> usize {
     }
 }
 
-/// Identifies over the case's band, on all cores; the result does not depend on their number.
+/// Identifies over the case's band, on all cores and on a reduced model that is shared with the check of the case; the result does not depend on the number of cores.
 ///
 /// # Errors
 /// [`ProblemError`] where the case has a fault that was not seen when it was loaded. Numerical trouble is a status of its frequency, never an error.
-pub fn identify(
-    case: &Case,
-    identify: &IdentifyCase,
-    options: RunOptions,
-    progress: Progress<'_>,
-) -> Result<IdentifyRun, ProblemError> {
-    let used = Used::of(identify);
-    let problem = problem_of(case, identify, &used)?;
-    identify_with(&mut ReducedBand::default(), &problem, case, identify, (&options, progress))
-}
-
-/// The same on a reduced model that is shared with the check of the case.
 pub(crate) fn identify_with<'a>(
     reduced: &mut ReducedBand<'a>,
     problem: &'a Problem<'a>,

@@ -3,7 +3,7 @@
 mod identify;
 mod respond;
 
-pub use identify::{ErrorMap, IdentifyRun, RunOptions, Seconds, identify};
+pub use identify::{ErrorMap, IdentifyRun, RunOptions, Seconds};
 pub(crate) use identify::{Used, identify_with, noise_of, problem_of, reduced_of};
 pub use respond::{RespondRun, respond};
 

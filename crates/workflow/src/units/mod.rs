@@ -140,17 +140,17 @@ impl UnitSystem {
     }
 
     /// The unit of a length.
-    pub fn length_unit(self) -> &'static str {
+    fn length_unit(self) -> &'static str {
         self.made().units[0]
     }
 
     /// The unit of a mass.
-    pub fn mass_unit(self) -> &'static str {
+    fn mass_unit(self) -> &'static str {
         self.made().units[1]
     }
 
     /// The unit of a time.
-    pub fn time_unit(self) -> &'static str {
+    fn time_unit(self) -> &'static str {
         self.made().units[2]
     }
 
