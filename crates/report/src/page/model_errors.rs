@@ -4,14 +4,9 @@ use super::heading;
 use crate::escape::escape;
 use crate::number::{percent, significant};
 use crate::results::Results;
+use frfit::identify::LeverageOf;
 use serde_json::Value;
 use std::fmt::Write;
-
-/// Known factors of which 1 % moves an unknown by more than this are named, in per cent.
-const LARGE_LEVERAGE: f64 = 1.5;
-
-/// The same for 1 % in the natural frequencies at the end of the band, which moves a modulus alone by 2 %.
-const LARGE_LEVERAGE_OF_MESH: f64 = 3.0;
 
 /// Text and tables; nothing where the summary has no entry for them.
 pub(super) fn model_errors(results: &Results) -> String {
@@ -238,8 +233,10 @@ pub(super) fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String
 /// What 1 % of known factors does to the unknowns, where that is much.
 fn leverage(results: &Results) -> String {
     let is_of_mesh = |one: &Value| one.get("mesh").is_some();
-    let limit = |one: &Value| if is_of_mesh(one) { LARGE_LEVERAGE_OF_MESH } else { LARGE_LEVERAGE };
-    let large = |one: &&Value| number(one, "percent_by_percent").is_some_and(|change| change > limit(one));
+    // All known factors have one limit: which of them it is does not matter.
+    let of = |one: &Value| if is_of_mesh(one) { LeverageOf::Mesh } else { LeverageOf::Factor(0) };
+    let large =
+        |one: &&Value| number(one, "percent_by_percent").is_some_and(|change| change > of(one).large());
     let mut all: Vec<&Value> = results.summary.array("/leverage").iter().filter(large).collect();
     let change = |one: &Value| number(one, "percent_by_percent").unwrap_or(0.0);
     all.sort_by(|a, b| change(b).total_cmp(&change(a)));
