@@ -1,6 +1,7 @@
 //! Whether a model fits into memory, estimated before any of it is factorised.
 
 use crate::load::Case;
+use frfit::subspace::MAX_COUNTED_DOFS;
 use frfit_linalg::c64;
 use frfit_linalg::solve::{Analysis, Breakdown, FactorMemory};
 use std::fmt;
@@ -8,9 +9,6 @@ use std::sync::Arc;
 
 /// Vectors of a subspace to reckon with, beside the one factor that it has at a time.
 const VECTORS: usize = 256;
-
-/// Rows up to which the modes of a box are counted, by a second factor.
-const MAX_COUNTED_DOFS: usize = 100_000;
 
 /// A model that would not fit.
 #[derive(Debug, Clone, PartialEq)]

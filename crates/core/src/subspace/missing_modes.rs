@@ -32,8 +32,8 @@ pub struct ModeCount {
     pub brought: usize,
 }
 
-/// Rows of a model whose second factor does not matter beside the first in time and memory.
-const MAX_COUNTED_DOFS: usize = 100_000;
+/// Rows of a model up to which the modes of a box are counted: their second factor does not matter beside the first in time and memory.
+pub const MAX_COUNTED_DOFS: usize = 100_000;
 
 /// Vectors of one Lanczos block.
 const BLOCK: usize = 6;

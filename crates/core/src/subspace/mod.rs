@@ -39,7 +39,7 @@ pub use changes::{ChangePoint, Changed};
 pub(crate) use corrected::{Corrected, Local};
 pub(crate) use factor_error::FactorError;
 pub use kept::{KeptArray, KeptError, KeptSubspace};
-pub use missing_modes::ModeCount;
+pub use missing_modes::{MAX_COUNTED_DOFS, ModeCount};
 pub(crate) use modal_sums::ModalSums;
 pub(crate) use modes::{AlongMode, ErrorSlopes, ModalErrors, Modes};
 pub use natural_modes::{ModelAtFrequency, NaturalMode, NaturalModes, NaturalModesError};
