@@ -191,7 +191,6 @@ fn identifiability(found: &Bound<'_, PyDict>, computed: &Computed, identify: &Id
     found.set_item("profile", table(py, profile.iter().map(|&(x, y)| vec![x, y]), 2)?)
 }
 
-/// Faults in words, the misfit with them, and how many nats they are behind the best.
 /// Faults in words, misfit and nats of each explanation between which the data do not decide.
 pub(crate) fn other_explanations(case: &Case, diagnosis: Option<&Diagnosis>) -> Vec<(Vec<String>, f64, f64)> {
     let others = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.others);

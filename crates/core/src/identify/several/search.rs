@@ -187,12 +187,12 @@ impl Task<'_, '_> {
         tried
     }
 
-    /// What holds for the band, as it varies.
     /// The frequencies, and the window through which they are seen.
     pub(super) fn seen(&self) -> (&[f64], f64) {
         (&self.omegas, self.problem.model.decay_per_s())
     }
 
+    /// What holds for the band, as it varies.
     pub(super) fn coordinates(&self) -> Coordinates {
         let middle = &self.nominal[self.nominal.len() / 2];
         Coordinates::new(self.problem.unknowns, |one| one.varies.clone(), middle, self.seen())
