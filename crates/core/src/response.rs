@@ -174,3 +174,12 @@ pub fn relative_error(measured: &[c64], response: &[c64]) -> f64 {
     let size: f64 = measured.iter().map(|u| u.norm_sqr()).sum();
     (misfit / size).sqrt()
 }
+
+/// The same over the sensors that are not left out.
+pub(crate) fn relative_error_without(left_out: &[usize], measured: &[c64], response: &[c64]) -> f64 {
+    let kept = |values: &[c64]| -> Vec<c64> {
+        let kept = values.iter().enumerate().filter(|(m, _)| !left_out.contains(m));
+        kept.map(|(_, value)| *value).collect()
+    };
+    relative_error(&kept(measured), &kept(response))
+}

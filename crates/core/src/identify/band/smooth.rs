@@ -29,7 +29,7 @@ use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
 use crate::material::{OutsideTable, at_real_frequency};
 use crate::model::ModelAt;
-use crate::response::relative_error;
+use crate::response::relative_error_without;
 use crate::smooth::{Evidence, Observation, Smoothed, State, roughness, smooth};
 use crate::subspace::Subspace;
 
@@ -376,13 +376,8 @@ impl Smoothing<'_, '_> {
 
     fn is_beyond_noise(&self, i: usize, x: &[c64], level: f64) -> bool {
         let rms = (self.misfit(i, x) / (2 * self.sensors(i)).max(1) as f64).sqrt();
-        relative_error(&self.kept(&self.band.measured[i]), &self.kept(x)) > MAX_ERROR
+        relative_error_without(self.out, &self.band.measured[i], x) > MAX_ERROR
             && rms > MAX_RMS_MISFIT * level
-    }
-
-    /// Of the sensors that are not left out.
-    fn kept(&self, values: &[c64]) -> Vec<c64> {
-        values.iter().enumerate().filter(|(m, _)| !self.out.contains(m)).map(|(_, value)| *value).collect()
     }
 
     fn misfit(&self, i: usize, x: &[c64]) -> f64 {
@@ -436,7 +431,7 @@ impl Smoothing<'_, '_> {
         {
             bars.divide(split.of(&slopes));
         }
-        let error = relative_error(&self.kept(measured), &self.kept(&assessed.response));
+        let error = relative_error_without(self.out, measured, &assessed.response);
         // Of 2M numbers, what the curve took from this frequency.
         let taken = (fitted.observations[i].weight * variance).min(1.0);
         let freedom = (2 * self.sensors(i)) as f64 - self.numbers() as f64 * taken;

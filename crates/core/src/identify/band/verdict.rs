@@ -8,7 +8,7 @@ use crate::identify::outcome::{Line, Status};
 use crate::identify::uncertainty::Uncertainty;
 use crate::model::ModelAt;
 use crate::rational::Poles;
-use crate::response::relative_error;
+use crate::response::relative_error_without;
 use crate::roots::Candidate;
 use crate::select::Choice;
 use crate::series::ConvergenceRadius;
@@ -57,11 +57,7 @@ pub(super) fn verdict(evidence: &Evidence<'_>, found: &Candidates, choice: &Choi
         rivals = (0..found.solutions.len()).filter(|&k| evidence.solution != Some(k)).collect();
     }
     let factor = nominal + chosen.correction;
-    let kept = |values: &[c64]| -> Vec<c64> {
-        let kept = values.iter().enumerate().filter(|(m, _)| !evidence.left_out.contains(m));
-        kept.map(|(_, value)| *value).collect()
-    };
-    let error = relative_error(&kept(evidence.measured), &kept(&chosen.response));
+    let error = relative_error_without(evidence.left_out, evidence.measured, &chosen.response);
     line.set_correction(chosen.correction);
     line.error = Some(error).filter(|error| error.is_finite());
     line.spectral_radius = line.radius.map(|radius| radius.at(chosen.correction));

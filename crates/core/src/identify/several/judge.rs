@@ -23,7 +23,7 @@ use crate::identify::unknown::{Unknown, Variation};
 use crate::laws::LawKind;
 use crate::material::{Law, loss_factor};
 use crate::median::median;
-use crate::response::relative_error;
+use crate::response::relative_error_without;
 use crate::roots::Bounds;
 
 /// Points of a profile to either side, and how far they reach in standard deviations.
@@ -263,10 +263,6 @@ impl Task<'_, '_> {
         let response = calibrated(&solution.response);
         let values = self.with_bars(found, i, solution, level_of_bars(level, fit), known.as_ref());
         let count = 2 * (measured.len() - self.left_out.len());
-        let kept = |values: &[c64]| -> Vec<c64> {
-            let kept = values.iter().enumerate().filter(|(m, _)| !self.left_out.contains(m));
-            kept.map(|(_, value)| *value).collect()
-        };
         let per_freedom = |misfit: f64| level.map(|level| misfit / (level * level * count as f64));
         let chi_squared = per_freedom(solution.misfit);
         let standing = |k: usize| match found.chosen[i].solution {
@@ -283,7 +279,7 @@ impl Task<'_, '_> {
         line.solutions = solutions.iter().enumerate().map(of_solution).collect();
         let rivals = line.solutions.iter().filter(|one| one.standing == Standing::Rival);
         line.rivals = rivals.map(|one| one.values.clone()).collect();
-        let error = relative_error(&kept(measured), &kept(&response));
+        let error = relative_error_without(&self.left_out, measured, &response);
         let assessed = reduced.assess(i, &solution.values);
         let reduction_error =
             assessed.map(|assessed| reduction_error(&assessed, solution.values[0], measured).response);
