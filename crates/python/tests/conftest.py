@@ -81,6 +81,15 @@ def chain() -> Chain:
     return Chain()
 
 
+def measured_chain(frequency_hz: np.ndarray) -> list[frfit.Measurement]:
+    """A chain of stiffness 1000 and loss factor 0.03, with 1 % of noise."""
+    exact = frfit.respond(Chain().model(1000 * (1 + 0.03j)), frequency_hz, load=0, sensors=[6, 11])
+    random = np.random.default_rng(3)
+    std = 0.01 * np.abs(exact)
+    exact = exact + std * (random.normal(size=exact.shape) + 1j * random.normal(size=exact.shape)) / np.sqrt(2)
+    return [frfit.Measurement(frequency_hz, exact[:, k], row, std=std[:, k]) for k, row in enumerate((6, 11))]
+
+
 def copied(case: pathlib.Path, to: pathlib.Path) -> pathlib.Path:
     """The case in a folder of its own."""
     shutil.copytree(case.parent, to)

@@ -10,22 +10,17 @@ import re
 
 import numpy as np
 import pytest
-from conftest import Chain
+from conftest import Chain, measured_chain
 
 import frfit
 from frfit._shown import with_std
 
 F = np.linspace(4.0, 110.0, 400)
-TRUE = 1000 * (1 + 0.03j)
 
 
 @pytest.fixture(scope="module")
 def measured():
-    exact = frfit.respond(Chain().model(TRUE), F, load=0, sensors=[6, 11])
-    random = np.random.default_rng(3)
-    std = 0.01 * np.abs(exact)
-    exact = exact + std * (random.normal(size=exact.shape) + 1j * random.normal(size=exact.shape)) / np.sqrt(2)
-    return [frfit.Measurement(F, exact[:, k], row, std=std[:, k]) for k, row in enumerate((6, 11))]
+    return measured_chain(F)
 
 
 @pytest.fixture(scope="module")
