@@ -1,13 +1,13 @@
 //! What came out of an identification.
 
 use super::band::{BandOutcome, LawsOutcome, SmoothCurve, SmoothOutcome};
+use super::band_value::{BandCoordinate, BandValue, Direction, Number, Profile};
 use super::causality_breach::CausalityBreach;
 use super::channel::Calibration;
 use super::goodness_of_fit::{Explained, GoodnessOfFit, SensorFit};
 use super::model_errors::{Leverage, ModelErrorsFound};
 use super::noise::NoiseLevel;
 use super::outcome::{Line, Status};
-use super::several::{BandCoordinate, BandValue, Direction, Number, Profile, SeveralOutcome};
 use crate::laws::{Estimate, LawFit, best};
 use crate::response::Work;
 use frfit_linalg::solve::Breakdown;
@@ -82,6 +82,35 @@ pub struct SearchReport {
 }
 
 impl Identification {
+    /// Lines and their noise, where nothing else is known.
+    pub(super) fn of_lines(lines: Vec<Line>, noise: NoiseLevel) -> Self {
+        Self {
+            lines,
+            constants: Vec::new(),
+            laws: Vec::new(),
+            curve: None,
+            free: Vec::new(),
+            channels: Vec::new(),
+            sensors: Vec::new(),
+            noise,
+            fit: None,
+            identifiability: Identifiability::default(),
+            model_errors: None,
+            leverage: Vec::new(),
+            causality_breaches: Vec::new(),
+            search: SearchReport::default(),
+        }
+    }
+
+    /// The same where a model with large errors explains the band far better: nothing is ok.
+    pub(super) fn of_other_model(mut self) -> Self {
+        self.fit = self.fit.map(|fit| fit.of_model(true));
+        let statuses = self.lines.iter_mut().map(|line| &mut line.status);
+        let statuses = statuses.chain(self.constants.iter_mut().map(|value| &mut value.status));
+        statuses.filter(|status| **status == Status::Ok).for_each(|status| *status = Status::Unexplained);
+        self
+    }
+
     /// How many lines have this status.
     pub fn count(&self, status: Status) -> usize {
         self.lines.iter().filter(|line| line.status == status).count()
@@ -135,22 +164,8 @@ impl From<BandOutcome> for Identification {
             converged: true,
             ..SearchReport::default()
         };
-        Self {
-            lines,
-            constants: Vec::new(),
-            laws: Vec::new(),
-            curve: None,
-            free: Vec::new(),
-            channels: Vec::new(),
-            sensors,
-            noise,
-            fit,
-            identifiability: Identifiability::default(),
-            model_errors: model_errors.map(|errors| errors.found()),
-            leverage,
-            causality_breaches: Vec::new(),
-            search,
-        }
+        let model_errors = model_errors.map(|errors| errors.found());
+        Self { sensors, fit, model_errors, leverage, search, ..Self::of_lines(lines, noise) }
     }
 }
 
@@ -179,52 +194,4 @@ fn of_law(fit: &LawFit, lines: &[Line], band: Option<GoodnessOfFit>) -> BandValu
         numbers.iter().all(Number::is_identifiable) || lines.iter().any(|line| line.status == Status::Ok);
     let status = Status::of([(!is_known, Status::NotIdentifiable), (!fit.converged, Status::Failed)]);
     BandValue { unknowns: 0, numbers, law: fit.law.clone(), at_bound: false, status: status.within(band) }
-}
-
-impl From<SeveralOutcome> for Identification {
-    fn from(several: SeveralOutcome) -> Self {
-        let SeveralOutcome {
-            band,
-            lines,
-            coordinates,
-            correlation,
-            directions,
-            channels,
-            profile,
-            noise,
-            fit,
-            sensors,
-            model_errors,
-            leverage,
-            ..
-        } = several;
-        let SeveralOutcome { converged, about, starts, agreeing, work, subspace_size, breakdown, .. } =
-            several;
-        let search = SearchReport {
-            work,
-            reduced_size: breakdown.is_none().then_some(subspace_size),
-            explored: 0,
-            about,
-            starts,
-            agreeing,
-            converged,
-            breakdown,
-        };
-        Self {
-            lines,
-            constants: band,
-            laws: Vec::new(),
-            curve: None,
-            free: Vec::new(),
-            channels,
-            sensors,
-            noise,
-            fit,
-            identifiability: Identifiability { coordinates, correlation, directions, profile },
-            model_errors,
-            leverage,
-            causality_breaches: Vec::new(),
-            search,
-        }
-    }
 }

@@ -9,9 +9,10 @@
 //! | `band` | a single unknown: all solutions at each frequency, one path through the band, laws, a smooth curve |
 //! | `several` | any number of unknowns in one least squares |
 //! | `one` | a single frequency, as the paper has it |
-//! | `outcome`, `identification` | what came out of a line, and of a band |
+//! | `outcome`, `band_value`, `identification` | what came out of a line, of what holds for the band, and of the whole |
 
 mod band;
+mod band_value;
 mod causality_breach;
 mod channel;
 mod channel_coordinates;
@@ -49,6 +50,7 @@ pub use crate::frfs::{CommonNoise, Frfs, Noise, NoiseFloor};
 pub use crate::response::relative_error;
 pub use band::SmoothCurve;
 pub(crate) use band::{DELAY_PHASE_STEP_RAD, MAX_DELAY_PHASE_RAD};
+pub use band_value::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
 pub use causality_breach::CausalityBreach;
 pub use channel::{Calibrated, Calibration, ChannelUnknowns};
 pub use choice::{Method, Reduction, Selection, UnknownChoice};
@@ -68,7 +70,6 @@ pub use outcome::{Line, LineSolution, LineValue, Standing, Status, Trust};
 pub use problem::Problem;
 pub use problem_error::ProblemError;
 pub use reduced_band::ReducedBand;
-pub use several::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
 pub(crate) use shown_modes::ShownModes;
 pub use uncertainty::{Contributions, Uncertainty};
 pub use unknown::{Dependence, Unknown, Variation};
@@ -116,7 +117,7 @@ pub fn identify_on<'a>(
     reduced.begin(problem);
     let trained = &mut reduced.subspace;
     let found: Identification = match problem.single() {
-        None => several::identify_several(problem, trained, options, context)?.into(),
+        None => several::identify_several(problem, trained, options, context)?,
         Some((strategy, parameter)) => {
             let band = &problem.band(0, parameter);
             match strategy {

@@ -4,13 +4,13 @@ use super::Task;
 use super::at_frequency::{Solution, eliminate};
 use super::coordinates::Own;
 use super::neighbourhoods::Neighbourhoods;
-use super::outcome::SeveralOutcome;
 use super::search::{BandSolution, Begin};
 use crate::c64;
 use crate::for_each::map;
 use crate::frfs::{Noise, standard_deviations};
 use crate::identify::band::{MAX_TRAINING_ROUNDS, law_through};
 use crate::identify::form::Form;
+use crate::identify::identification::Identification;
 use crate::identify::model_errors::{
     Coarser, Curve, Curves, Estimated, Explanation, Leverage, Measured, NoiseScale, Spline,
     averaged_over_small_errors, estimate, estimate_with_laws,
@@ -26,8 +26,8 @@ impl Task<'_, '_> {
         &self,
         reduced: &mut Neighbourhoods<'_>,
         solution: &BandSolution,
-        mut found: SeveralOutcome,
-    ) -> SeveralOutcome {
+        mut found: Identification,
+    ) -> Identification {
         let is_smooth = self.asked.has_smooth();
         if self.options.model_errors.is_exact(self.problem.model) && !is_smooth {
             return found;
@@ -41,7 +41,7 @@ impl Task<'_, '_> {
                 let Some(errors) = small else { return found };
                 reduced.correct(&errors.modes, &errors.errors, self.context.for_each);
                 let judged = self.judge(reduced, solution, Some(&errors));
-                return SeveralOutcome { leverage: found.leverage, ..judged };
+                return Identification { leverage: found.leverage, ..judged };
             }
             Explanation::OtherModel => return found.of_other_model(),
             Explanation::Errors(errors) => *errors,
@@ -65,7 +65,7 @@ impl Task<'_, '_> {
         let judged = task.judge(reduced, &again, Some(&errors));
         let is_contradicted = !errors.contradicted_assumptions.is_empty();
         let judged = if is_contradicted { judged.of_other_model() } else { judged };
-        SeveralOutcome {
+        Identification {
             model_errors: has_errors.then(|| errors.found()),
             leverage: found.leverage,
             ..judged
@@ -119,7 +119,7 @@ impl Task<'_, '_> {
         &self,
         reduced: &Neighbourhoods<'_>,
         solution: &BandSolution,
-        found: &SeveralOutcome,
+        found: &Identification,
     ) -> (Explanation, Option<Estimated>, Vec<Leverage>) {
         let unknowns = self.problem.unknowns;
         // A law that is wrong is no error of the model: smooth curves in place of laws say whether there are any.

@@ -5,14 +5,15 @@ use super::at_frequency::Solution;
 use super::coordinates::Own;
 use super::information::Information;
 use super::neighbourhoods::Neighbourhoods;
-use super::outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile, SeveralOutcome};
 use super::search::{BandSolution, Place, Plane, Reach};
 use crate::c64;
 use crate::for_each::map;
 use crate::frfs::Noise;
 use crate::identify::band::{MAX_REDUCTION_ERROR, reduction_error};
+use crate::identify::band_value::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
 use crate::identify::channel::ChannelNumber;
 use crate::identify::goodness_of_fit::{GoodnessOfFit, MAX_ERROR, MAX_RMS_MISFIT, judge};
+use crate::identify::identification::{Identifiability, Identification, SearchReport};
 use crate::identify::local_fit::of_responses;
 use crate::identify::model_errors::{Estimated, Split};
 use crate::identify::noise::NoiseLevel;
@@ -60,7 +61,7 @@ impl Task<'_, '_> {
         reduced: &Neighbourhoods<'_>,
         found: &BandSolution,
         errors: Option<&Estimated>,
-    ) -> SeveralOutcome {
+    ) -> Identification {
         let all: Vec<usize> = (0..self.omegas.len()).collect();
         let n = found.theta.len();
         let eliminated = self.eliminated(&all, found, &found.theta, None);
@@ -216,26 +217,21 @@ impl Task<'_, '_> {
         let unexplained = lines.iter().filter(|line| line.status == Status::Unexplained).count();
         let is_other_model = unexplained as f64 > MAX_UNEXPLAINED_SHARE * lines.len() as f64
             || (0..self.problem.unknowns.len()).any(|j| gives_energy(&lines, j));
-        let outcome = SeveralOutcome {
-            band,
-            lines,
-            coordinates,
-            correlation,
-            directions,
-            channels,
-            profile,
-            noise,
-            fit,
-            sensors: Vec::new(),
-            model_errors: None,
-            leverage: Vec::new(),
-            converged: found.converged,
-            about: Vec::new(),
+        let search = SearchReport {
+            work: reduced.work(),
+            reduced_size: Some(reduced.size()),
             starts: found.starts.len(),
             agreeing: found.agreeing,
-            work: reduced.work(),
-            subspace_size: reduced.size(),
-            breakdown: None,
+            converged: found.converged,
+            ..SearchReport::default()
+        };
+        let outcome = Identification {
+            constants: band,
+            channels,
+            fit,
+            identifiability: Identifiability { coordinates, correlation, directions, profile },
+            search,
+            ..Identification::of_lines(lines, noise)
         };
         if is_other_model { outcome.of_other_model() } else { outcome }
     }

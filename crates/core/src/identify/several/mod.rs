@@ -24,7 +24,6 @@ mod corrected;
 mod information;
 mod judge;
 mod neighbourhoods;
-mod outcome;
 mod outlier_sensor;
 mod path;
 mod search;
@@ -32,13 +31,11 @@ mod starts;
 #[cfg(test)]
 mod tests;
 
-pub(super) use outcome::SeveralOutcome;
-pub use outcome::{BandCoordinate, BandValue, Direction, Number, NumberOf, Profile};
-
 use super::channel::Calibration;
 use super::context::Context;
 use super::dead_channel::dead_channels;
 use super::far_nominal::{Far, MeasuredShapes, are_stiffnesses};
+use super::identification::{Identification, SearchReport};
 use super::noise::{NoiseLevel, without};
 use super::options::Options;
 use super::outcome::Line;
@@ -88,7 +85,7 @@ pub(super) fn identify_several<'a>(
     trained: &mut Option<Subspace<'a>>,
     options: &Options,
     context: Context<'_>,
-) -> Result<SeveralOutcome, OutsideTable> {
+) -> Result<Identification, OutsideTable> {
     let frfs = problem.frfs;
     let nominal = nominal_of(problem)?;
     let dead = dead_channels(frfs.receptance);
@@ -128,7 +125,7 @@ pub(super) fn identify_several<'a>(
             }
             let kept = task.leaving_out(&found.left_out);
             let mut outcome = kept.correct(&mut reduced, &found.solution, found.right);
-            outcome.about = about;
+            outcome.search.about = about;
             outcome.sensors = kept.sensor_fits(&task.sigma, &found.contradicting, &outcome);
             *trained = Some(reduced.into_subspace());
             outcome
@@ -141,7 +138,7 @@ pub(super) fn identify_several<'a>(
 struct Searched {
     solution: BandSolution,
     /// As a right model has it.
-    right: SeveralOutcome,
+    right: Identification,
     /// Sensors that contradict all others, and those that are left out.
     contradicting: Vec<usize>,
     left_out: Vec<usize>,
@@ -227,30 +224,20 @@ impl Task<'_, '_> {
         Some((0..unknowns.len()).map(factor).collect())
     }
 
-    fn broken(&self, breakdown: Breakdown) -> SeveralOutcome {
+    fn broken(&self, breakdown: Breakdown) -> Identification {
         let at = |(nominal, &frequency_hz): (&Vec<c64>, &f64)| {
             Line::broken(frequency_hz, nominal, 0, breakdown.clone())
         };
-        SeveralOutcome {
-            band: Vec::new(),
-            lines: self.given.iter().zip(self.problem.frfs.frequency_hz).map(at).collect(),
-            coordinates: Vec::new(),
-            correlation: Vec::new(),
-            directions: Vec::new(),
+        let lines = self.given.iter().zip(self.problem.frfs.frequency_hz).map(at).collect();
+        let noise = NoiseLevel::new(self.problem.frfs.noise, None, None);
+        Identification {
             channels: vec![Calibration::default(); self.problem.channels.len()],
-            profile: None,
-            noise: NoiseLevel::new(self.problem.frfs.noise, None, None),
-            fit: None,
-            sensors: Vec::new(),
-            model_errors: None,
-            leverage: Vec::new(),
-            converged: false,
-            about: Vec::new(),
-            starts: 0,
-            agreeing: 0,
-            work: Work { factorisations: 2, solves: 0 },
-            subspace_size: 0,
-            breakdown: Some(breakdown),
+            search: SearchReport {
+                work: Work { factorisations: 2, solves: 0 },
+                breakdown: Some(breakdown),
+                ..SearchReport::default()
+            },
+            ..Identification::of_lines(lines, noise)
         }
     }
 }

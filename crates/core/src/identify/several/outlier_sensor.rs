@@ -2,12 +2,12 @@
 
 use super::Task;
 use super::neighbourhoods::Neighbourhoods;
-use super::outcome::SeveralOutcome;
 use super::search::BandSolution;
 use crate::frfs::Noise;
 use crate::identify::band::{OUTLIER_FREQUENCIES, OUTLIER_RATIO};
 use crate::identify::dead_channel::dead_channels;
 use crate::identify::goodness_of_fit::SensorFit;
+use crate::identify::identification::Identification;
 use crate::identify::noise::{level_of, without};
 use crate::identify::outcome::Line;
 use crate::identify::unknown::Unknown;
@@ -139,7 +139,7 @@ impl Task<'_, '_> {
         &self,
         assumed: &[Vec<f64>],
         contradicting: &[usize],
-        outcome: &SeveralOutcome,
+        outcome: &Identification,
     ) -> Vec<SensorFit> {
         let level = outcome.noise.level;
         let dead = dead_channels(self.problem.frfs.receptance);

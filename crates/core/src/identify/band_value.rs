@@ -1,14 +1,8 @@
-//! The outcome of an identification of several unknowns.
+//! What came out of unknowns that hold for the whole band.
 
-use crate::identify::channel::Calibration;
-use crate::identify::goodness_of_fit::{GoodnessOfFit, SensorFit};
-use crate::identify::model_errors::{Leverage, ModelErrorsFound};
-use crate::identify::noise::NoiseLevel;
-use crate::identify::outcome::{Line, Status};
-use crate::identify::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
+use super::outcome::Status;
+use super::uncertainty::{KNOWN_RELATIVE_STD, MIN_KNOWN_LOSS_FACTOR};
 use crate::material::Law;
-use crate::response::Work;
-use frfit_linalg::solve::Breakdown;
 
 /// A number that holds for the whole band.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,12 +22,12 @@ impl Number {
     }
 
     /// Whether it is a loss factor that noise leaves unknown.
-    pub(in crate::identify) fn is_unknown_loss_factor(&self) -> bool {
+    pub(super) fn is_unknown_loss_factor(&self) -> bool {
         self.is_loss_factor() && !self.is_known_beside(self.value.abs().max(MIN_KNOWN_LOSS_FACTOR))
     }
 
     /// Whether noise leaves the unknown known, as far as it depends on this number: a loss factor is compared with one, since it is a share of the storage part.
-    pub(in crate::identify) fn is_identifiable(&self) -> bool {
+    pub(super) fn is_identifiable(&self) -> bool {
         self.is_known_beside(self.value.abs().max(if self.is_loss_factor() { 1.0 } else { 0.0 }))
     }
 
@@ -91,57 +85,4 @@ pub struct Profile {
     /// How far from the answer along the least identifiable direction, and by how much χ² is larger there: by 1 a standard deviation away where the bars hold noise alone, by more where they
     /// hold errors of the model too.
     pub points: Vec<(f64, f64)>,
-}
-
-/// What came out.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::identify) struct SeveralOutcome {
-    /// The unknowns that hold for the band.
-    pub(in crate::identify) band: Vec<BandValue>,
-    /// One for each frequency.
-    pub(in crate::identify) lines: Vec<Line>,
-    /// What the coordinates of [`Self::correlation`] and [`Self::directions`] are.
-    pub(in crate::identify) coordinates: Vec<BandCoordinate>,
-    /// Correlation of the numbers that hold for the band.
-    pub(in crate::identify) correlation: Vec<Vec<f64>>,
-    /// Combinations of them, the least identifiable first.
-    pub(in crate::identify) directions: Vec<Direction>,
-    /// One for each sensor; empty where all channels are calibrated.
-    pub(in crate::identify) channels: Vec<Calibration>,
-    /// χ² along the first of them.
-    pub(in crate::identify) profile: Option<Profile>,
-    /// How large the noise is.
-    pub(in crate::identify) noise: NoiseLevel,
-    /// Whether noise is all that is left.
-    pub(in crate::identify) fit: Option<GoodnessOfFit>,
-    /// One for each sensor.
-    pub(in crate::identify) sensors: Vec<SensorFit>,
-    /// The errors of the model that were corrected for.
-    pub(in crate::identify) model_errors: Option<ModelErrorsFound>,
-    pub(in crate::identify) leverage: Vec<Leverage>,
-    /// Whether the search settled.
-    pub(in crate::identify) converged: bool,
-    /// Factors on the nominal values about which was searched, where they are far off; else empty.
-    pub(in crate::identify) about: Vec<f64>,
-    /// Starts that were followed, and how many of them ended at the answer.
-    pub(in crate::identify) starts: usize,
-    /// See [`Self::starts`].
-    pub(in crate::identify) agreeing: usize,
-    /// Work of size N.
-    pub(in crate::identify) work: Work,
-    /// Vectors of the subspace.
-    pub(in crate::identify) subspace_size: usize,
-    /// Why there is no subspace; nothing was searched then.
-    pub(in crate::identify) breakdown: Option<Breakdown>,
-}
-
-impl SeveralOutcome {
-    /// The same where a model with large errors explains the band far better: nothing is ok.
-    pub(super) fn of_other_model(mut self) -> Self {
-        self.fit = self.fit.map(|fit| fit.of_model(true));
-        let statuses = self.lines.iter_mut().map(|line| &mut line.status);
-        let statuses = statuses.chain(self.band.iter_mut().map(|value| &mut value.status));
-        statuses.filter(|status| **status == Status::Ok).for_each(|status| *status = Status::Unexplained);
-        self
-    }
 }
