@@ -38,7 +38,7 @@ pub(crate) fn run_case<'py>(
             Some(out) => {
                 let job = identify_case(&path, &overrides, options, &out, &progress)?;
                 let IdentifyJob { case, diagnosis, run, .. } = job;
-                Computed { case, diagnosis, run, seconds_load: 0.0, seconds_check: 0.0 }
+                Computed { case, diagnosis, run }
             }
         };
         Ok(computed)

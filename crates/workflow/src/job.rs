@@ -81,7 +81,7 @@ pub fn identify_case(
     check_folder(out, &IDENTIFIED_FILES, &case.reads)?;
     let computed = compute(case, options, seconds_load, progress)?;
     let (files, summary) = result_files(&computed, Pictures::of(&computed)?, out)?;
-    let Computed { case, diagnosis, run, .. } = computed;
+    let Computed { case, diagnosis, run } = computed;
     let page = report_of(&files, out);
     write_result(out, IDENTIFIED, files, page.as_ref().ok().cloned(), &case.reads)?;
     page.map_err(JobError::Report)?;
@@ -116,14 +116,13 @@ pub(crate) fn result_files(
     pictures: Pictures,
     place: &Path,
 ) -> Result<(Vec<File>, Value), JobError> {
-    let Computed { case, diagnosis, run, seconds_load, seconds_check, .. } = computed;
+    let Computed { case, diagnosis, run } = computed;
     let wanted = case.identify.as_ref().expect("a case loaded to identify has something to identify");
     let mut files = pictures.figures;
     let found = &run.found;
-    let mut summary = summary_json(case, wanted, run, *seconds_load, pictures.seconds);
+    let mut summary = summary_json(case, wanted, run, pictures.seconds);
     summary["findings"] = diagnosis.as_ref().map_or(Value::Null, |d| findings_json(case, d));
     summary["other_explanations"] = diagnosis.as_ref().map_or(Value::Null, |d| others_json(case, d));
-    summary["seconds"]["check"] = (*seconds_check).into();
     summary["modes"] = pictures.modes;
     let mut tables = vec![
         File::new("identified.csv", identified_csv(wanted, &found.lines)),
@@ -159,10 +158,6 @@ pub struct Computed {
     pub diagnosis: Option<Diagnosis>,
     /// What came out.
     pub run: IdentifyRun,
-    /// How long the files took to read.
-    pub seconds_load: f64,
-    /// How long the data took to check.
-    pub seconds_check: f64,
 }
 
 /// [`identify_case`] without its files, but for a reduced model that is to be kept: the numbers are the same.
@@ -213,7 +208,7 @@ pub fn compute(
         Check::First => Some(check(&mut reduced)?),
         Check::IfUnexplained | Check::Never => None,
     };
-    let run = identify_with(&mut reduced, &problem, &case, wanted, (&options, progress))?;
+    let mut run = identify_with(&mut reduced, &problem, &case, wanted, (&options, progress))?;
     let unexplained = run.found.fit.is_some_and(|fit| fit.verdict == Explained::No);
     if wanted.check == Check::IfUnexplained && unexplained {
         diagnosis = Some(check(&mut reduced)?);
@@ -221,7 +216,8 @@ pub fn compute(
     if let Some((file, kept)) = options.keep_reduced.as_ref().zip(reduced.kept()) {
         write_reduced(file, &kept, &case)?;
     }
-    Ok(Computed { case, diagnosis, run, seconds_load, seconds_check })
+    (run.seconds.load, run.seconds.check) = (seconds_load, seconds_check);
+    Ok(Computed { case, diagnosis, run })
 }
 
 fn write_reduced(file: &Path, kept: &KeptSubspace, case: &Case) -> Result<usize, JobError> {

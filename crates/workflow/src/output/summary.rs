@@ -22,16 +22,10 @@ fn right_within(unknowns: usize) -> f64 {
     if unknowns == 1 { 1e-6 } else { 1e-5 }
 }
 
-/// The summary of an identification. `seconds_load` and `seconds_figures` are the stages outside the run.
+/// The summary of an identification. `seconds_figures` is the stage outside the run.
 ///
 /// What belongs to one unknown stands in `unknowns`; what belongs to a single one stands also beside what belongs to the band.
-pub fn summary_json(
-    case: &Case,
-    identify: &IdentifyCase,
-    run: &IdentifyRun,
-    seconds_load: f64,
-    seconds_figures: f64,
-) -> Value {
+pub fn summary_json(case: &Case, identify: &IdentifyCase, run: &IdentifyRun, seconds_figures: f64) -> Value {
     let (found, options) = (&run.found, &identify.options);
     let statuses = || Status::ALL.into_iter().filter(|&status| run.count(status) > 0);
     let by_status = |of: &dyn Fn(Status) -> Value| -> Map<String, Value> {
@@ -88,7 +82,8 @@ pub fn summary_json(
             "reduction_error": found.reduction_error(),
         },
         "seconds": {
-            "load": seconds_load,
+            "load": run.seconds.load,
+            "check": run.seconds.check,
             "subspace": run.seconds.subspace,
             "solutions": run.seconds.solutions,
             "selection": run.seconds.selection,

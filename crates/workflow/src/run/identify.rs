@@ -40,6 +40,10 @@ pub struct ErrorMap {
 /// Wall-clock seconds of each stage.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Seconds {
+    /// Reading the files.
+    pub load: f64,
+    /// Looking for what is wrong with the data.
+    pub check: f64,
     /// Training of the subspace.
     pub subspace: f64,
     /// Solutions at every frequency.
@@ -240,7 +244,7 @@ impl StageClock {
 }
 
 impl Seconds {
-    /// Of the identification: everything but the error map.
+    /// Of the identification: neither what comes before it nor the error map.
     pub fn identify(&self) -> f64 {
         self.subspace + self.solutions + self.selection + self.laws
     }
