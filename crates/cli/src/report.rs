@@ -86,6 +86,18 @@ fn statuses(text: &mut Text, job: &IdentifyJob, identify: &IdentifyCase) {
     let counts: Vec<String> =
         there.map(|status| format!("{} {}", run.count(status), status.name())).collect();
     text.say("status", &counts.join(", "));
+    for sensor in &job.case.sensors {
+        if let Some(elsewhere) = sensor.elsewhere {
+            let file = sensor.file.as_ref().map_or_else(String::new, |file| format!("{}: ", file.display()));
+            text.warn(
+                "dof",
+                &format!(
+                    "{file}measured at {elsewhere} as the file says, at {} as the case says: the case counts",
+                    sensor.label
+                ),
+            );
+        }
+    }
     let (not_common, used) = (identify.not_common, identify.frequency_hz.len());
     if not_common > 0 {
         let all = used + not_common;

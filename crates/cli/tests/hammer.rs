@@ -6,6 +6,7 @@ use crate::tier::of_tier;
 use common::{column, done, refused};
 use serde_json::Value;
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::Path;
 
 /// The example, and its FRF from its records.
@@ -280,4 +281,23 @@ fn sensitivities_units_and_degrees_of_freedom_from_the_command_line() {
         // 13 digits in UFF; the scale is a product of rounded factors.
         assert!((a - b).abs() < 1e-11 * a, "{a} {b}");
     }
+}
+
+/// The second FRF of the file is that of mid-length, and the case takes it for the corner of the tip. The DOF of the case counts, and both are said.
+#[test]
+fn a_dof_that_contradicts_the_file_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    done(folder.path(), &["example", "sandwich", "beam"]);
+    let file = folder.path().join("beam/case.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    let wrong = text.replace("dof = \"248+Z\" ", "record = 2\ndof = \"248+Z\" ");
+    assert_ne!(text, wrong);
+    let quick = wrong.replace("[identify]\n", "[identify]\ncheck = false\nmax_lines = 20\n");
+    fs::write(&file, format!("model_error = \"none\"\n{quick}")).unwrap();
+    let said = done(folder.path(), &["identify", "beam/case.toml", "--out", "out"]);
+    assert!(said.contains("measured at 202+Z as the file says, at 248+Z as the case says"), "{said}");
+    let summary: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.path().join("out/summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["sensors"][0]["dof_in_file"], "202+Z");
+    assert!(summary["sensors"][1].get("dof_in_file").is_none());
 }

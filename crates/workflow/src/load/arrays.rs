@@ -241,7 +241,8 @@ pub fn response_of_arrays(
         return Err(InputError::at(&argument("frequency_hz"), expected, f.to_string()));
     }
     covers(&model, &frequency_hz)?;
-    let label = |sensor: &Sensor| SensorInfo { label: row(sensor.row), quantity, file: None };
+    let label =
+        |sensor: &Sensor| SensorInfo { label: row(sensor.row), quantity, file: None, elsewhere: None };
     let labels = experiment.sensors.iter().map(label).collect();
     Ok(case(model, experiment, labels, None, frequency_hz))
 }
@@ -358,8 +359,12 @@ fn measurement(measured: MeasuredFrf, k: usize, dim: usize) -> Result<Measuremen
     inside(&place, measured.sensor.row, dim)?;
     measured.check(&name)?;
     let (scale, delay_s) = (measured.scale.unwrap_or(1.0), measured.delay_s.unwrap_or(0.0));
-    let info =
-        SensorInfo { label: row(measured.sensor.row), quantity: measured.quantity, file: None::<PathBuf> };
+    let info = SensorInfo {
+        label: row(measured.sensor.row),
+        quantity: measured.quantity,
+        file: None::<PathBuf>,
+        elsewhere: None,
+    };
     let file = NamedFile::closed_at(Path::new(&name), argument("measurements"));
     let MeasuredFrf { sensor, frf, averages, window, record_s, .. } = measured;
     let decay = Some(Decay { per_s: frf.decay_per_s.unwrap_or(0.0), place: place.below("decay_per_s") });

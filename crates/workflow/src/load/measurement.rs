@@ -20,6 +20,8 @@ pub struct SensorInfo {
     pub quantity: Quantity,
     /// The file with the measurement as the case names it.
     pub file: Option<PathBuf>,
+    /// Where the file says that it was measured, if the case says otherwise.
+    pub elsewhere: Option<DofName>,
 }
 
 /// A measurement, read as far as it was needed.
@@ -136,7 +138,14 @@ pub(super) fn measurement(
     };
     let file = entry.file.as_ref().map(|name| PathBuf::from(&name.value));
     let decay = decay(entry, curve.as_ref())?;
-    Ok(Measurement { sensor, info: SensorInfo { label, quantity, file }, curve, decay })
+    let elsewhere = curve.as_ref().and_then(|curve| elsewhere(entry, &curve.frf));
+    Ok(Measurement { sensor, info: SensorInfo { label, quantity, file, elsewhere }, curve, decay })
+}
+
+/// Where a file says that it was measured, if that is neither where the case says nor, with the ends exchanged, where it was driven.
+fn elsewhere(entry: &MeasurementEntry, frf: &Frf) -> Option<DofName> {
+    let Some(Spot::Dof(Located { value: asked, .. })) = &entry.spot else { return None };
+    frf.measured_at.filter(|at| at != asked && frf.driven_at != Some(*asked))
 }
 
 fn curve(

@@ -223,6 +223,9 @@ fn no_answer(run: &IdentifyRun) -> Value {
 fn sensor(case: &Case, run: &IdentifyRun, m: usize) -> Value {
     let sensor = &case.sensors[m];
     let mut of_sensor = json!({"label": sensor.label, "quantity": sensor.quantity.name()});
+    if let Some(elsewhere) = sensor.elsewhere {
+        of_sensor["dof_in_file"] = json!(elsewhere.to_string());
+    }
     let channels = case.identify.as_ref().map_or(&[][..], |identify| &identify.channels);
     let unknown = channels.get(m).copied().unwrap_or_default();
     let found = run.found.channels.get(m).copied().unwrap_or_default();
