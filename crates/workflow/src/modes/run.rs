@@ -10,7 +10,7 @@ use frfit::modal::{
     MeasuredModes, PairedShape, Pairing, PoleOptions, assurance, coordinate_assurance, measured_modes,
     paired, scale_assurance,
 };
-use frfit::model::ModelAt;
+use frfit::model::{DynamicStiffness, ModelAt};
 use frfit::response::Work;
 use frfit::subspace::{NaturalModes, NaturalModesError, Point, Subspace, TrainOptions};
 use frfit_linalg::vector::norm;
@@ -104,12 +104,15 @@ pub(super) fn modes_of(
     let reach = if wanted.measured.is_some() { BEYOND_BAND } else { 1.0 };
     let within = range_of_tables(case);
     let at = |f: f64| case.model.at(f.clamp(within[0], within[1]), &[]);
+    // A window is on the records. The modes are those of the structure, with moduli at real frequencies.
+    let without_window = DynamicStiffness::clone(&case.model).with_decay_per_s(0.0);
+    let of_structure = |f: f64| without_window.at(f.clamp(within[0], within[1]), &[]);
     let highest_hz = reach * band_hz[1];
     let mut subspace = match case.subspace() {
         Some(subspace) => subspace,
         None => Subspace::new(&case.experiment, &at(highest_hz)?)?,
     };
-    let model = subspace.natural_modes(&at, highest_hz)?;
+    let model = subspace.natural_modes(&of_structure, highest_hz)?;
     let measured = match &wanted.measured {
         Some(band) if band.frequency_hz.len() > 1 => {
             let decay_per_s = case.model.decay_per_s();

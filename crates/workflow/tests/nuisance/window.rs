@@ -10,6 +10,7 @@ use frfit::response::{FullModel, Response};
 use frfit_linalg::sparse::Triplets;
 use frfit_workflow::job::{IdentifyJob, respond_case};
 use frfit_workflow::load::{Choice, Overrides, Purpose, WindowSource, load, load_frf};
+use frfit_workflow::modes::{ModesOptions, modes_case};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fs;
 use tempfile::TempDir;
@@ -123,6 +124,22 @@ fn who_contradicts_whom_is_said() {
     ] {
         let found = refusal(&folder(&tables(head), &keys(keys_of[0], keys_of[1], SPRINGS)));
         assert!(found.contains(message), "{found}");
+    }
+}
+
+/// The modes of the model are those of the structure, whatever window the measurements have.
+#[test]
+fn natural_modes_have_no_window() {
+    let poles = |said: &str| -> Vec<c64> {
+        let folder = folder(&tables(""), &keys(said, said, SPRINGS));
+        let case = folder.path().join("case.toml");
+        let job = modes_case(&case, &Overrides::default(), &ModesOptions::default(), None).unwrap();
+        job.run.model.modes.iter().map(|mode| mode.pole_per_s).collect()
+    };
+    let (behind, without) = (poles(SAID), poles(""));
+    assert!(!behind.is_empty() && behind.len() == without.len());
+    for (a, b) in behind.iter().zip(&without) {
+        assert!((a - b).norm() < 1e-11 * b.norm(), "{a} {b}");
     }
 }
 
