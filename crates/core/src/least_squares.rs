@@ -145,7 +145,10 @@ const SETTLED_GAIN: f64 = 0.01;
 /// patience in a flat valley, as where a law has a parameter too many, ends there.
 fn is_settled(residuals: &[f64], jacobian: &[f64], n: usize) -> bool {
     let m = residuals.len();
-    let Some(inverse) = inverse_information(jacobian, n).filter(|_| m > n) else { return false };
+    if m <= n {
+        return false;
+    }
+    let Some(inverse) = inverse_information(jacobian, n) else { return false };
     let pull: Vec<f64> =
         jacobian.chunks_exact(m).map(|c| c.iter().zip(residuals).map(|(a, b)| a * b).sum()).collect();
     let pairs = (0..n * n).map(|k| pull[k / n] * inverse[k / n][k % n] * pull[k % n]);
@@ -213,7 +216,9 @@ mod tests {
             assert_eq!(is_settled(&residuals, &[1.0; 6], 1), settled, "{off}");
         }
         // Two coordinates that are one, and as many coordinates as residuals.
-        assert!(!is_settled(&noise, &[1.0; 12], 2) && !is_settled(&[0.0], &[1.0], 1));
+        assert!(
+            !is_settled(&noise, &[1.0; 12], 2) && !is_settled(&[0.0], &[1.0], 1) && !is_settled(&[], &[], 1)
+        );
     }
 
     #[test]

@@ -95,8 +95,10 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
             wrong = self.better(wrong, self.upwards());
         }
         let wrong = self.tuned(wrong?);
-        // What small errors do not explain, shapes that may be far off explain with any modulus.
-        let are_doubtful = self.is_found(&wrong) && wrong.sizes.shape >= DOUBTFUL_SHAPE_STD;
+        // What small errors do not explain, shapes that may be far off explain with any modulus; and of one sensor they are the sizes of its resonances alone.
+        let is_contradicted = self.search.data.counted_sensors().count() > 1;
+        let are_doubtful =
+            wrong.sizes.shape >= DOUBTFUL_SHAPE_STD && is_contradicted && self.is_found(&wrong);
         let misplaced = if are_doubtful { self.with_misplaced_sensors() } else { None };
         self.better(Some(wrong), misplaced)
     }
