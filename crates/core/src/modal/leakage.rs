@@ -4,7 +4,7 @@
 //! has added, and the difference of both says whether there was one.
 
 use super::hann::hann_resonance;
-use super::pieces::{Shown, UNDECIDED_PIECES, pieces};
+use super::pieces::{Explained, Shown, UNDECIDED_PIECES, pieces};
 use crate::c64;
 use crate::for_each::ForEach;
 use crate::frequency::laplace_per_s;
@@ -32,27 +32,43 @@ pub fn hann_leakage(
     record_s: f64,
     for_each: ForEach<'_>,
 ) -> Result<Vec<Vec<c64>>, NoConvergence> {
-    let (shown, all) = (Shown::of_some(frfs, 0.0), Shown::of_all(frfs, 0.0));
-    let mut leakage = vec![vec![c64::default(); all.sensors()]; frfs.frequency_hz.len()];
-    for piece in pieces(frfs.frequency_hz) {
-        let Some([_, hann]) = shown.fitted_twice(&piece.lines, record_s, for_each)? else { continue };
-        let Some(fitted) = all.measured(&piece.lines, Some(record_s)).fitted(&hann.fit, for_each) else {
-            continue;
+    let mut leakage: Vec<Vec<c64>> =
+        frfs.receptance.iter().map(|row| vec![c64::default(); row.len()]).collect();
+    each_resonance(frfs, 0.0, Some(record_s), for_each, |i, pole, residues| {
+        let bias = |pole: c64| {
+            let z = laplace_per_s(frfs.frequency_hz[i], 0.0) - pole;
+            hann_resonance(z, record_s)[0] - z.inv()
         };
+        let [near, far] = [bias(pole), bias(pole.conj())];
+        for (sum, residue) in leakage[i].iter_mut().zip(residues) {
+            *sum += residue * near + residue.conj() * far;
+        }
+    })?;
+    Ok(leakage)
+}
+
+/// Calls `add` for each line and each resonance of its piece of the band: the line, the pole, and its residue at each sensor. With the length of the records under a Hann window
+/// the resonances are fitted through that.
+fn each_resonance(
+    frfs: Frfs<'_>,
+    decay_per_s: f64,
+    hann_record_s: Option<f64>,
+    for_each: ForEach<'_>,
+    mut add: impl FnMut(usize, c64, &[c64]),
+) -> Result<(), NoConvergence> {
+    let (shown, all) = (Shown::of_some(frfs, decay_per_s), Shown::of_all(frfs, decay_per_s));
+    for piece in pieces(frfs.frequency_hz) {
+        let found = match hann_record_s {
+            Some(record_s) => shown.fitted_twice(&piece.lines, record_s, for_each)?.map(|[_, hann]| hann),
+            None => shown.resonances(&piece.lines, for_each)?,
+        };
+        let Some(Explained { fit, .. }) = found else { continue };
+        let Some(fitted) = all.measured(&piece.lines, hann_record_s).fitted(&fit, for_each) else { continue };
         for i in piece.own {
-            let bias = |pole: c64| {
-                let z = laplace_per_s(frfs.frequency_hz[i], 0.0) - pole;
-                hann_resonance(z, record_s)[0] - z.inv()
-            };
-            for (pole, residues) in hann.fit.poles.iter().zip(&fitted.residues) {
-                let [near, far] = [bias(*pole), bias(pole.conj())];
-                for (sum, residue) in leakage[i].iter_mut().zip(residues) {
-                    *sum += residue * near + residue.conj() * far;
-                }
-            }
+            fit.poles.iter().zip(&fitted.residues).for_each(|(&pole, residues)| add(i, pole, residues));
         }
     }
-    Ok(leakage)
+    Ok(())
 }
 
 /// How much FRFs of impacts are wrong because their records of length T end before the responses have decayed, `[frequency][sensor]`; s = iω + α with the decay α of an
@@ -71,21 +87,14 @@ pub fn cut_off(
     record_s: f64,
     for_each: ForEach<'_>,
 ) -> Result<Vec<Vec<f64>>, NoConvergence> {
-    let (shown, all) = (Shown::of_some(frfs, decay_per_s), Shown::of_all(frfs, decay_per_s));
-    let mut cut_off = vec![vec![0.0_f64; all.sensors()]; frfs.frequency_hz.len()];
-    for piece in pieces(frfs.frequency_hz) {
-        let Some(plain) = shown.resonances(&piece.lines, for_each)? else { continue };
-        let Some(fitted) = all.measured(&piece.lines, None).fitted(&plain.fit, for_each) else { continue };
-        for i in piece.own {
-            let s = laplace_per_s(frfs.frequency_hz[i], decay_per_s);
-            for (pole, residues) in plain.fit.poles.iter().zip(&fitted.residues) {
-                let left = ((pole.re - decay_per_s) * record_s).exp() / (s - pole).norm();
-                for (sum, residue) in cut_off[i].iter_mut().zip(residues) {
-                    *sum = sum.hypot(left * residue.norm());
-                }
-            }
+    let mut cut_off: Vec<Vec<f64>> = frfs.receptance.iter().map(|row| vec![0.0; row.len()]).collect();
+    each_resonance(frfs, decay_per_s, None, for_each, |i, pole, residues| {
+        let s = laplace_per_s(frfs.frequency_hz[i], decay_per_s);
+        let left = ((pole.re - decay_per_s) * record_s).exp() / (s - pole).norm();
+        for (sum, residue) in cut_off[i].iter_mut().zip(residues) {
+            *sum = sum.hypot(left * residue.norm());
         }
-    }
+    })?;
     Ok(cut_off)
 }
 
