@@ -72,20 +72,25 @@ pub(crate) fn fractional_power(s_tau: c64, alpha: f64) -> c64 {
 /// # Source
 /// R. H. T. O'Donnell, E. T. Jaynes, J. G. Miller, J. Acoust. Soc. Am. 69 (1981) 696–701.
 fn continued(modulus: c64, s: c64) -> c64 {
-    if s.re == 0.0 || s.im == 0.0 || modulus.re <= 0.0 {
-        return modulus;
+    match over_real_frequency(s).filter(|_| modulus.re > 0.0) {
+        Some(ratio) => modulus * ratio.powf(modulus.arg() / FRAC_PI_2),
+        None => modulus,
     }
-    modulus * (s / c64::new(0.0, s.im)).powf(modulus.arg() / FRAC_PI_2)
+}
+
+/// s/iω of s = iω + α; `None` without a window, and at 0 Hz.
+pub(crate) fn over_real_frequency(s: c64) -> Option<c64> {
+    (s.re != 0.0 && s.im != 0.0).then(|| s / c64::new(0.0, s.im))
 }
 
 /// E at iω of a modulus that is known at s = iω + α: the inverse of what [`Law::at_laplace`] does to a modulus that is known at one frequency.
 pub(crate) fn at_real_frequency(modulus: c64, frequency_hz: f64, decay_per_s: f64) -> c64 {
     let s = laplace_per_s(frequency_hz, decay_per_s);
-    if s.re == 0.0 || s.im == 0.0 || modulus.re <= 0.0 {
-        return modulus;
+    match over_real_frequency(s).filter(|_| modulus.re > 0.0) {
+        // A power law has the phase p arg s at s.
+        Some(ratio) => modulus * ratio.powf(-modulus.arg() / s.arg()),
+        None => modulus,
     }
-    // A power law has the phase p arg s at s.
-    modulus * (c64::new(0.0, s.im) / s).powf(modulus.arg() / s.arg())
 }
 
 /// z/(1 + z), written so that a large z does not overflow.

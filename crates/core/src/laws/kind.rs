@@ -1,7 +1,7 @@
 //! Which laws there are, their parameters, and how the modulus depends on them.
 
 use crate::c64;
-use crate::material::{Branch, Law, fractional_power, loss_factor, saturation};
+use crate::material::{Branch, Law, fractional_power, loss_factor, over_real_frequency, saturation};
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
@@ -275,12 +275,12 @@ impl LawKind {
         match self {
             Self::Constant => {
                 let (per_storage, of_loss) = (c64::new(1.0, p[1]), c64::new(0.0, 1.0));
-                if s.re == 0.0 || s.im == 0.0 {
+                let Some(ratio) = over_real_frequency(s) else {
                     return (p[0] * per_storage, vec![per_storage, p[0] * of_loss]);
-                }
-                let ratio = log(s / c64::new(0.0, s.im)) / FRAC_PI_2;
-                let power = (ratio * p[1].atan()).exp();
-                let of_loss = of_loss + per_storage * ratio / (1.0 + p[1] * p[1]);
+                };
+                let by_angle = log(ratio) / FRAC_PI_2;
+                let power = (by_angle * p[1].atan()).exp();
+                let of_loss = of_loss + per_storage * by_angle / (1.0 + p[1] * p[1]);
                 (p[0] * power * per_storage, vec![power * per_storage, p[0] * power * of_loss])
             }
             Self::Fractional => {
