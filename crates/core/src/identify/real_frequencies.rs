@@ -59,13 +59,12 @@ impl Seen<'_> {
 
 fn line_at_real_frequency(mut line: Line, seen: &[Seen<'_>], with_law: bool) -> Line {
     let f = line.frequency_hz;
-    let before = line.nominal();
+    let nominal_at_s = line.nominal();
     for (value, one) in line.values.iter_mut().zip(seen) {
         value.nominal = one.unknown.nominal.at(f).unwrap_or(value.nominal);
         let law = one.law.as_ref().filter(|_| with_law).and_then(|law| law.at(f).ok());
         let Some(at_s) = value.value else { continue };
-        let within = within(&one.unknown.bounds, at_s, one.at(at_s, f));
-        let at_f = law.unwrap_or(within);
+        let at_f = law.unwrap_or_else(|| within(&one.unknown.bounds, at_s, one.at(at_s, f)));
         (value.value, value.correction) = (Some(at_f), Some(at_f - value.nominal));
         if let Some(bars) = &mut value.uncertainty {
             let ratio = loss_factor(at_f) / loss_factor(at_s);
@@ -75,14 +74,13 @@ fn line_at_real_frequency(mut line: Line, seen: &[Seen<'_>], with_law: bool) -> 
     }
     // Rounded alike, a rival is still equal to its root.
     let nominal = line.nominal();
-    let moved = |one: &Seen<'_>, nominal: c64, value: c64| nominal + (one.at(value, f) - nominal);
     for root in &mut line.roots {
-        root.correction = seen[0].at(before + root.correction, f) - nominal;
+        root.correction = seen[0].at(nominal_at_s + root.correction, f) - nominal;
     }
     let all = line.rivals.iter_mut().chain(line.solutions.iter_mut().map(|solution| &mut solution.values));
     for values in all {
         for ((value, one), of_line) in values.iter_mut().zip(seen).zip(&line.values) {
-            *value = moved(one, of_line.nominal, *value);
+            *value = of_line.nominal + (one.at(*value, f) - of_line.nominal);
         }
     }
     line

@@ -95,22 +95,20 @@ impl<'f, 't, 'a> ErrorSearch<'f, 't, 'a> {
             wrong = self.better(wrong, self.upwards());
         }
         let wrong = self.tuned(wrong?);
-        // What small errors do not explain, shapes that may be far off explain with any modulus; and of one sensor they are the sizes of its resonances alone.
-        let is_contradicted = self.search.data.counted_sensors().count() > 1;
-        let are_doubtful =
-            wrong.sizes.shape >= DOUBTFUL_SHAPE_STD && is_contradicted && self.is_found(&wrong);
-        let misplaced = if are_doubtful { self.with_misplaced_sensors() } else { None };
+        // Shapes that may be far off explain almost any band, with any modulus: small errors have to explain it already. With one sensor they only scale its resonances.
+        let is_free = self.coarse.known.given.shape.is_none();
+        let has_others = self.search.data.counted_sensors().count() > 1;
+        let are_doubtful = is_free && has_others && wrong.sizes.shape >= DOUBTFUL_SHAPE_STD;
+        let misplaced =
+            if are_doubtful && self.is_found(&wrong) { self.with_misplaced_sensors() } else { None };
         self.better(Some(wrong), misplaced)
     }
 
-    /// From the starts with shapes as far off as where a sensor or the load is beside its place. From smaller ones natural frequencies take a part of such errors, and the unknowns
-    /// follow them.
+    /// From the starts, with errors of shapes as large as those of a sensor or a load beside its place. Where the search begins with small ones, errors of natural frequencies take
+    /// their part, and the unknowns follow.
     fn with_misplaced_sensors(&self) -> Option<Explained> {
         let data = self.search.data;
         let known = self.coarse.known.with_shape(MISPLACED_SHAPE_STD);
-        if self.coarse.known.given.shape.is_some() {
-            return None;
-        }
         let coarse = Fitting { kinds: Kinds::STIFFNESS, known, ..self.coarse };
         let place = self.nearest(&coarse, self.at_starts())?;
         self.search.near(place, Kinds::STIFFNESS, &|fitting, place| {
